@@ -1,0 +1,1 @@
+#include "nodes/all_nodes.h"
