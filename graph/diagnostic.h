@@ -45,9 +45,10 @@ Diagnostic warning(std::string code, std::string message);
 Diagnostic info(std::string code, std::string message);
 
 bool has_error(const Diagnostics& all);
-// `FILE:LINE:COL: severity: node.port: code: message (hint)`, leaving out what is empty.
+// `FILE:LINE:COL: severity: code: node.port, joint J, frame F: message (hint)`, leaving out what is empty.
 std::string to_text(const Diagnostic& diagnostic);
-// The report's form: {"severity","code","param","port","frame","joint","message","hint"}, null or "" left out.
+// The report's form: {"severity","code","param","port","frame","joint","message","hint"} and, where they are known,
+// "file", "line", "column" and "node"; what is empty is left out.
 Json to_json(const Diagnostic& diagnostic);
 
 // Thrown where work can't go on. Readers of graph files collect Diagnostics instead and report them all.
@@ -69,5 +70,7 @@ class Cancelled : public std::exception {
 
 // The candidate nearest to `name` by edit distance, or "" when none is near enough to be a slip of the hand.
 std::string nearest(std::string_view name, const std::vector<std::string>& candidates);
+// A hint for an unknown name: `did you mean "fps"?`, or the names there are when none is near.
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace kinegraph

@@ -76,7 +76,7 @@ const char* name_of(Json::Kind kind);  // "null", "true or false", "a number", "
 // The shortest decimal that reads back the same double; -0 as "0". The value is finite.
 std::string shortest_number(double value);
 // A string with quotes and the escapes that JSON asks for; everything else stays UTF-8.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 // One line, no spaces but after ':' and ',': `{"a": 1, "b": [2, 3]}`. For messages, reports and lists in a graph file.
 // `as_read`: numbers stand as they were spelled.
 std::string compact(const Json& value, bool as_read = false);

@@ -13,7 +13,7 @@ class Compute;
 
 struct InputPort {
   std::string name;
-  std::vector<std::string> types;  // accepted; the first is the usual one
+  std::vector<std::string> types;  // accepted; the first is the usual one. None: any (Switch, Dot)
   std::string help;
   bool optional = false;
   bool list = false;  // takes several links, in order; always a list in the file
@@ -74,6 +74,9 @@ struct NodeType {
   const InputPort* find_input(std::string_view port) const;
   const OutputPort* find_output(std::string_view port) const;
   const Param* find_param(std::string_view param_name) const;
+  std::vector<std::string> input_names() const;
+  std::vector<std::string> output_names() const;
+  std::vector<std::string> param_names() const;
 };
 
 }  // namespace kinegraph

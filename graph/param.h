@@ -89,13 +89,15 @@ ParamType table(ParamType value);       // default {}
 ParamType either(std::vector<ParamType> alternatives);
 ParamType required(ParamType type);     // as a field: no default
 
+// What a value of the type looks like, in words: "a number from 0 to 1 (s)". For hints.
+std::string described(const ParamType& type);
 // Everything wrong with `value` as a `type`, each with its place and `where` ("edits[2].factor") as param.
 // A whole-value "${name}" must have been replaced before.
 Diagnostics check(const ParamType& type, const Json& value, const std::string& where);
 // The value with every field that was left out filled in and numbers normalised (-0 to 0): equal meaning, equal Json.
 Json completed(const ParamType& type, const Json& value);
 // A value from the command line: JSON, or bare text for strings, choices, patterns, paths and units; `10:200` or `10:` for a range.
-// Throws Failure ("bad-value").
+// Throws Failure ("bad-value") when it is neither; whether it fits is for check() to say.
 Json parse_value(const ParamType& type, std::string_view text);
 
 // A node's parameters, checked and complete. Asking for a name or kind that the description lacks is a programming

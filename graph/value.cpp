@@ -25,10 +25,18 @@ std::vector<T> numbers(std::string_view bytes) {
 
 }  // namespace
 
-void Encoder::u8(std::uint8_t value) { put(out_, &value, 1); }
-void Encoder::u32(std::uint32_t value) { put(out_, &value, 1); }
-void Encoder::u64(std::uint64_t value) { put(out_, &value, 1); }
-void Encoder::f64(double value) { put(out_, &value, 1); }
+void Encoder::u8(std::uint8_t value) {
+  put(out_, &value, 1);
+}
+void Encoder::u32(std::uint32_t value) {
+  put(out_, &value, 1);
+}
+void Encoder::u64(std::uint64_t value) {
+  put(out_, &value, 1);
+}
+void Encoder::f64(double value) {
+  put(out_, &value, 1);
+}
 void Encoder::text(std::string_view value) {
   u64(value.size());
   out_.append(value);
@@ -67,10 +75,18 @@ std::size_t length_in_bytes(std::uint64_t count, std::size_t size, std::size_t l
 
 }  // namespace
 
-std::uint8_t Decoder::u8() { return static_cast<std::uint8_t>(take(1)[0]); }
-std::uint32_t Decoder::u32() { return numbers<std::uint32_t>(take(4))[0]; }
-std::uint64_t Decoder::u64() { return numbers<std::uint64_t>(take(8))[0]; }
-double Decoder::f64() { return numbers<double>(take(8))[0]; }
+std::uint8_t Decoder::u8() {
+  return static_cast<std::uint8_t>(take(1)[0]);
+}
+std::uint32_t Decoder::u32() {
+  return numbers<std::uint32_t>(take(4))[0];
+}
+std::uint64_t Decoder::u64() {
+  return numbers<std::uint64_t>(take(8))[0];
+}
+double Decoder::f64() {
+  return numbers<double>(take(8))[0];
+}
 std::string Decoder::text() {
   auto count = u64();
   return std::string(take(length_in_bytes(count, 1, rest_.size())));

@@ -4,14 +4,10 @@
 #include <string_view>
 
 #include "graph/document.h"
+#include "graph/file/parse_json.h"
 #include "graph/registry.h"
 
 namespace kinegraph {
-
-// JSON text -> Json with places. Refuses duplicate keys, invalid UTF-8, a byte-order mark, numbers that aren't finite,
-// more than 64 levels, more than 64 MiB, and git's conflict markers by name. Problems go to `problems`; on one that
-// stops the reading the result is null. `file` is how messages name it.
-Json parse_json(std::string_view text, const std::string& file, Diagnostics& problems);
 
 struct ReadResult {
   Document document;      // as far as it could be read; migrated to current versions in memory
