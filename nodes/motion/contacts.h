@@ -10,12 +10,12 @@ namespace kinegraph {
 
 // A point of a foot: a joint, or a point fixed in its frame (a toe's End Site).
 struct FootPoint {
-  std::string foot;   // the ankle joint's name
+  std::string foot;  // the ankle joint's name
   bool left = true;
-  std::string part;   // "heel" or "ball"
-  int joint = -1;     // of the motion's skeleton
+  std::string part;  // "heel" or "ball"
+  int joint = -1;    // of the motion's skeleton
   std::string joint_name;
-  Vec3 local;         // in the joint's frame, m; zero = the joint itself
+  Vec3 local;                 // in the joint's frame, m; zero = the joint itself
   std::vector<bool> planted;  // one flag a frame
 };
 
@@ -23,7 +23,7 @@ class Contacts final : public Value {
  public:
   double fps = 120;
   std::size_t frames = 0;
-  double floor = 0;  // world height, m
+  double floor = 0;               // world height, m
   std::vector<FootPoint> points;  // left heel, left ball, right heel, right ball
 
   std::string_view type() const override { return "Contacts"; }

@@ -1,5 +1,5 @@
-// A motion: a skeleton and, for every frame, each joint's local rotation and, where it varies, its local translation.
-// Every algorithm works along time, so each channel's whole time series is contiguous.
+// A motion: a skeleton and, for every frame, each joint's local rotation and, where it varies, its local
+// translation. Every algorithm works along time, so each channel's whole time series is contiguous.
 #pragma once
 #include <memory>
 #include <span>
@@ -20,17 +20,18 @@ struct BvhJoint {
 };
 // What a motion remembers of its source; a node's output takes them from its main input.
 struct SourceFacts {
-  std::string format;          // "bvh", "asf-amc", "gltf", "" = made by the program
-  double unit = 1;             // metres per unit of the file
-  std::string unit_name = "m"; // m, cm, mm, in, cmu or ""
+  std::string format;           // "bvh", "asf-amc", "gltf", "" = made by the program
+  double unit = 1;              // metres per unit of the file
+  std::string unit_name = "m";  // m, cm, mm, in, cmu or ""
   UpAxis up = UpAxis::y;
   // BVH only; one entry a joint of the skeleton, empty otherwise.
   std::vector<BvhJoint> bvh;
   std::vector<Vec3> bvh_ends;  // End Site OFFSETs as written, in the order of Skeleton::ends
   double frame_time = 0;       // as written; 0 = not a BVH
   std::string frame_time_text;
-  // Channel values as read, frame after frame, in the file's units and degrees: so rotations go back out as the solution
-  // nearest to what was read. Only valid while the motion has `read_frames` frames from `first_read` on unedited in time.
+  // Channel values as read, frame after frame, in the file's units and degrees: so rotations go back out as
+  // the solution nearest to what was read. Only valid while the motion has `read_frames` frames from
+  // `first_read` on unedited in time.
   std::shared_ptr<const std::vector<double>> read;
   std::size_t read_frames = 0;
   std::size_t first_read = 0;
@@ -40,7 +41,11 @@ struct SourceFacts {
 struct Vec3Track {
   std::span<double> x, y, z;
   Vec3 operator[](std::size_t t) const { return {x[t], y[t], z[t]}; }
-  void set(std::size_t t, Vec3 v) const { x[t] = v.x; y[t] = v.y; z[t] = v.z; }
+  void set(std::size_t t, Vec3 v) const {
+    x[t] = v.x;
+    y[t] = v.y;
+    z[t] = v.z;
+  }
 };
 struct ConstVec3Track {
   std::span<const double> x, y, z;
@@ -49,7 +54,12 @@ struct ConstVec3Track {
 struct QuatTrack {
   std::span<double> x, y, z, w;
   Quat operator[](std::size_t t) const { return {x[t], y[t], z[t], w[t]}; }
-  void set(std::size_t t, Quat q) const { x[t] = q.x; y[t] = q.y; z[t] = q.z; w[t] = q.w; }
+  void set(std::size_t t, Quat q) const {
+    x[t] = q.x;
+    y[t] = q.y;
+    z[t] = q.z;
+    w[t] = q.w;
+  }
 };
 struct ConstQuatTrack {
   std::span<const double> x, y, z, w;
@@ -59,7 +69,8 @@ struct ConstQuatTrack {
 class Motion final : public Value {
  public:
   Motion() = default;
-  // Rotations start at rest, translations at the joints' offsets. `translates[j]`: joint j has a translation track.
+  // Rotations start at rest, translations at the joints' offsets. `translates[j]`: joint j has a translation
+  // track.
   Motion(std::shared_ptr<const Skeleton> skeleton, std::shared_ptr<const SourceFacts> source, double fps,
          std::size_t frames, std::vector<bool> translates);
 
@@ -83,9 +94,11 @@ class Motion final : public Value {
   // Local translation at a frame, the rest offset where the joint has no track.
   Vec3 local_offset(int joint, std::size_t frame) const;
 
-  // Same skeleton, source, rate and tracks with other numbers of frames or joints that translate; contents at rest.
+  // Same skeleton, source, rate and tracks with other numbers of frames or joints that translate; contents at
+  // rest.
   Motion empty_like(std::size_t frames) const;
-  Motion with_translation(int joint) const;  // a copy in which the joint has a track, filled with its rest offset
+  Motion with_translation(
+      int joint) const;  // a copy in which the joint has a track, filled with its rest offset
 
   std::string_view type() const override { return "Motion"; }
   std::size_t bytes() const override;

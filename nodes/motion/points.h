@@ -17,12 +17,12 @@ class Points final : public Value {
   std::vector<std::string> labels;
   double fps = 120;
   std::size_t frames = 0;
-  double unit = 1;              // metres per unit of the file it came from
+  double unit = 1;  // metres per unit of the file it came from
   std::string unit_name = "m";
   UpAxis up = UpAxis::y;
   std::vector<std::pair<int, int>> links;  // to draw; may be empty
-  std::vector<double> data;     // per label x, then y, then z, each `frames` long; 0 where missing
-  std::vector<bool> missing;    // label * frames + frame; empty = none missing
+  std::vector<double> data;                // per label x, then y, then z, each `frames` long; 0 where missing
+  std::vector<bool> missing;               // label * frames + frame; empty = none missing
 
   ConstVec3Track track(int label) const;
   Vec3Track track(int label);

@@ -11,9 +11,9 @@ namespace kinegraph {
 
 struct Joint {
   std::string name;
-  int parent = -1;     // index; always smaller than the joint's own; -1 = root
-  Vec3 offset;         // rest translation in the parent's frame (of the root: in the frame of Skeleton::above)
-  Quat rest;           // rest rotation; identity in BVH and ASF
+  int parent = -1;  // index; always smaller than the joint's own; -1 = root
+  Vec3 offset;      // rest translation in the parent's frame (of the root: in the frame of Skeleton::above)
+  Quat rest;        // rest rotation; identity in BVH and ASF
 };
 
 // A point that rides on a joint and has no channels: BVH's End Site, the tip of an ASF bone.
@@ -49,14 +49,15 @@ double rest_height(const Skeleton& skeleton);  // extent along up of the rest po
 // The feet, found by name, else by geometry (the two lowest chains). -1: none.
 struct Leg {
   int hip = -1, knee = -1, ankle = -1, toe = -1;  // LeftUpLeg, LeftLeg, LeftFoot, LeftToeBase
-  std::optional<Vec3> toe_tip;                    // the End Site below the toe (or ankle), in that joint's frame
+  std::optional<Vec3> toe_tip;  // the End Site below the toe (or ankle), in that joint's frame
   bool left = true;
 };
 std::vector<Leg> find_legs(const Skeleton& skeleton);  // left first; empty when there are none
-double leg_length(const Skeleton& skeleton);           // hip to ankle along the links, mean of both; 0 without legs
+double leg_length(const Skeleton& skeleton);  // hip to ankle along the links, mean of both; 0 without legs
 
-// Partners of two skeletons: for each joint of `to` the joint of `from`, or -1. `map` entries are "FROM=TO"; empty: equal
-// names, then the built-in table CMU AMC <-> CMU BVH. Throws Failure ("unknown-joint", "bad-map") naming the entry.
+// Partners of two skeletons: for each joint of `to` the joint of `from`, or -1. `map` entries are "FROM=TO";
+// empty: equal names, then the built-in table CMU AMC <-> CMU BVH. Throws Failure ("unknown-joint",
+// "bad-map") naming the entry.
 std::vector<int> partners(const Skeleton& from, const Skeleton& to, const std::vector<std::string>& map);
 
 }  // namespace kinegraph

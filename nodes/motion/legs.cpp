@@ -1,0 +1,218 @@
+// Which joints are the legs, by their names in the conventions that are about, else by the shape of the rest
+// pose.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <initializer_list>
+
+#include "nodes/motion/skeleton.h"
+
+namespace kinegraph {
+
+namespace {
+
+enum class Side { none, left, right };
+enum class Part { none, hip, knee, ankle, toe };
+struct Meaning {
+  Side side = Side::none;
+  Part part = Part::none;
+};
+
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+Part part_of(std::string word) {
+  while (!word.empty() && std::isdigit(static_cast<unsigned char>(word.back()))) word.pop_back();
+  if (is_one_of(word, {"upleg", "upperleg", "thigh", "femur", "hip"})) return Part::hip;
+  if (is_one_of(word, {"leg", "lowleg", "lowerleg", "loleg", "shin", "tibia", "calf", "knee"}))
+    return Part::knee;
+  if (is_one_of(word, {"foot", "ankle"})) return Part::ankle;
+  if (is_one_of(word, {"toe", "toes", "toebase", "ball", "forefoot"})) return Part::toe;
+  return Part::none;
+}
+
+// "mixamorig:LeftUpLeg", "lfemur", "lThigh", "UpperLeg_L", "CC_Base_L_Thigh", "LEFT_HIP#", "upperleg01.L".
+Meaning meaning_of(std::string_view name) {
+  if (auto colon = name.rfind(':'); colon != name.npos) name.remove_prefix(colon + 1);
+  std::string word;  // letters and digits, lower case, without the side
+  Side side = Side::none;
+  for (std::size_t i = 0; i < name.size();) {
+    if (!std::isalnum(static_cast<unsigned char>(name[i]))) {
+      ++i;
+      continue;
+    }
+    std::string token;
+    while (i < name.size() && std::isalnum(static_cast<unsigned char>(name[i])))
+      token += static_cast<char>(std::tolower(static_cast<unsigned char>(name[i++])));
+    if (token == "l" || token == "r") {
+      side = token == "l" ? Side::left : Side::right;
+    } else if (!is_one_of(token, {"cc", "base", "bip", "bip01", "bip001", "def", "jnt", "joint"})) {
+      word += token;
+    }
+  }
+  for (auto [long_name, its_side] : {std::pair{"left", Side::left}, std::pair{"right", Side::right}}) {
+    if (auto at = word.find(long_name); at != word.npos) {
+      side = its_side;
+      word.erase(at, std::string_view(long_name).size());
+    }
+  }
+  // A lone l or r before or after: only where what is left is a leg's part, as in lfemur.
+  if (side == Side::none && word.size() > 1) {
+    bool at_front = word.front() == 'l' || word.front() == 'r';
+    if (at_front && part_of(word.substr(1)) != Part::none && part_of(word) == Part::none) {
+      side = word.front() == 'l' ? Side::left : Side::right;
+      word.erase(0, 1);
+    }
+  }
+  return {side, side == Side::none ? Part::none : part_of(word)};
+}
+
+double world_length(const RestPose& pose, int a, int b) {
+  return norm(pose.positions[a] - pose.positions[b]);
+}
+
+// The joint after the ankle: named so, else the child with the longest link; -1 where there is none with a
+// length.
+int toe_below(const Skeleton& skeleton, const std::vector<Meaning>& meanings, const RestPose& pose,
+              int ankle) {
+  int toe = -1;
+  for (int j = ankle + 1; j < skeleton.size(); ++j) {
+    if (meanings[j].part == Part::toe && skeleton.joints[j].parent == ankle &&
+        (toe < 0 || world_length(pose, j, ankle) > world_length(pose, toe, ankle)))
+      toe = j;
+  }
+  if (toe >= 0) return toe;
+  for (int j : skeleton.children(ankle)) {
+    double length = world_length(pose, j, ankle);
+    if (length > 0 && (toe < 0 || length > world_length(pose, toe, ankle))) toe = j;
+  }
+  return toe;
+}
+
+void add_toe_tip(const Skeleton& skeleton, Leg& leg) {
+  int joint = leg.toe >= 0 ? leg.toe : leg.ankle;
+  for (const EndSite& end : skeleton.ends)
+    if (end.joint == joint && norm(end.offset) > 0 && !leg.toe_tip) leg.toe_tip = end.offset;
+}
+
+std::optional<Leg> named_leg(const Skeleton& skeleton, const std::vector<Meaning>& meanings,
+                             const RestPose& pose, Side side) {
+  for (int ankle = 0; ankle < skeleton.size(); ++ankle) {
+    if (meanings[ankle].side != side || meanings[ankle].part != Part::ankle) continue;
+    Leg leg;
+    leg.left = side == Side::left;
+    leg.ankle = ankle;
+    // The topmost of several: upperleg01, upperleg02, lowerleg01, lowerleg02.
+    for (int j = skeleton.joints[ankle].parent; j >= 0; j = skeleton.joints[j].parent) {
+      if (meanings[j].side != side) continue;
+      if (meanings[j].part == Part::knee && leg.hip < 0) leg.knee = j;
+      if (meanings[j].part == Part::hip && leg.knee >= 0) leg.hip = j;
+    }
+    if (leg.hip < 0 || leg.knee < 0) continue;
+    leg.toe = toe_below(skeleton, meanings, pose, ankle);
+    return leg;
+  }
+  return {};
+}
+
+// --- by geometry ---
+
+// Joints from `top` (left out) down to `bottom`.
+std::vector<int> chain_between(const Skeleton& skeleton, int top, int bottom) {
+  std::vector<int> chain;
+  for (int j = bottom; j != top; j = skeleton.joints[j].parent) chain.push_back(j);
+  std::reverse(chain.begin(), chain.end());
+  return chain;
+}
+
+int common_ancestor(const Skeleton& skeleton, int a, int b) {
+  while (a != b) (a > b ? a : b) = skeleton.joints[std::max(a, b)].parent;
+  return a;
+}
+
+// Thigh and shin are the two longest neighbouring links of the chain.
+std::optional<Leg> leg_of_chain(const RestPose& pose, const std::vector<int>& chain) {
+  std::vector<int> bends;  // without joints that lie on the one before
+  for (int j : chain)
+    if (bends.empty() || world_length(pose, j, bends.back()) > 0) bends.push_back(j);
+  if (bends.size() < 3) return {};
+  std::size_t best = 0;
+  double longest = -1;
+  for (std::size_t i = 0; i + 2 < bends.size(); ++i) {
+    double length =
+        world_length(pose, bends[i], bends[i + 1]) + world_length(pose, bends[i + 1], bends[i + 2]);
+    if (length > longest) {
+      longest = length;
+      best = i;
+    }
+  }
+  Leg leg;
+  leg.hip = bends[best];
+  leg.knee = bends[best + 1];
+  leg.ankle = bends[best + 2];
+  if (best + 3 < bends.size()) leg.toe = bends[best + 3];
+  return leg;
+}
+
+std::vector<Leg> legs_by_geometry(const Skeleton& skeleton, const RestPose& pose) {
+  double height = rest_height(skeleton);
+  std::vector<int> leaves;
+  for (int j = 0; j < skeleton.size(); ++j)
+    if (skeleton.children(j).empty()) leaves.push_back(j);
+  std::stable_sort(leaves.begin(), leaves.end(),
+                   [&](int a, int b) { return pose.positions[a].y < pose.positions[b].y; });
+  // Two leaves in the lowest fifth whose chains part at one joint, reach equally low and are equally long.
+  double low = leaves.empty() ? 0 : pose.positions[leaves[0]].y;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    for (std::size_t k = i + 1; k < leaves.size(); ++k) {
+      if (pose.positions[leaves[k]].y > low + 0.2 * height) break;
+      int top = common_ancestor(skeleton, leaves[i], leaves[k]);
+      auto one = leg_of_chain(pose, chain_between(skeleton, top, leaves[i]));
+      auto other = leg_of_chain(pose, chain_between(skeleton, top, leaves[k]));
+      if (!one || !other) continue;
+      double a = world_length(pose, one->hip, one->knee) + world_length(pose, one->knee, one->ankle);
+      double b = world_length(pose, other->hip, other->knee) + world_length(pose, other->knee, other->ankle);
+      if (std::fabs(a - b) > 0.1 * std::max(a, b)) continue;
+      // Left is where up × forward points; forward is where the feet point, else z.
+      Vec3 forward;
+      for (const Leg& leg : {*one, *other})
+        if (leg.toe >= 0) forward += pose.positions[leg.toe] - pose.positions[leg.ankle];
+      forward.y = 0;
+      if (norm(forward) < 1e-3 * height) forward = {0, 0, 1};
+      Vec3 left = cross({0, 1, 0}, forward);
+      double side = dot(left, pose.positions[one->hip] - pose.positions[other->hip]);
+      if (side == 0) side = dot(left, pose.positions[one->ankle] - pose.positions[other->ankle]);
+      if (side < 0) std::swap(*one, *other);
+      one->left = true;
+      other->left = false;
+      return {*one, *other};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<Leg> find_legs(const Skeleton& skeleton) {
+  if (skeleton.joints.empty()) return {};
+  RestPose pose = rest_pose(skeleton);
+  std::vector<Meaning> meanings;
+  for (const Joint& joint : skeleton.joints) meanings.push_back(meaning_of(joint.name));
+  std::vector<Leg> legs;
+  for (Side side : {Side::left, Side::right})
+    if (auto leg = named_leg(skeleton, meanings, pose, side)) legs.push_back(*leg);
+  if (legs.empty()) legs = legs_by_geometry(skeleton, pose);
+  for (Leg& leg : legs) add_toe_tip(skeleton, leg);
+  return legs;
+}
+
+double leg_length(const Skeleton& skeleton) {
+  auto legs = find_legs(skeleton);
+  double sum = 0;
+  for (const Leg& leg : legs)
+    for (int j = leg.ankle; j != leg.hip; j = skeleton.joints[j].parent) sum += skeleton.link_length(j);
+  return legs.empty() ? 0 : skeleton.above_scale * sum / static_cast<double>(legs.size());
+}
+
+}  // namespace kinegraph
