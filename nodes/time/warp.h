@@ -12,7 +12,9 @@ namespace kinegraph {
 struct SkippedFrame {
   std::uint32_t frame = 0;
   double d_x = 0, d_z = 0, d_heading = 0, height = 0;  // per second, m
-  std::vector<double> logs;  // three a joint: log of the missing rotation
+  // Three a joint: log of the rotation that is missing, on the parent's side; per-dof: what v misses, rad. Then three for
+  // each joint other than the root that has a translation track, m.
+  std::vector<double> logs;
 };
 
 class Warp final : public Value {
@@ -24,7 +26,9 @@ class Warp final : public Value {
   std::uint32_t source_frames = 0, reference_frames = 0;
   // One path for all (shared) or one per DOF (per-dof). Entry r: the frame shown at row r.
   std::vector<std::vector<std::uint32_t>> paths;
-  std::vector<std::string> dofs;  // names of the paths in per-dof ("LeftUpLeg.x", "root.height"); empty when shared
+  // Names of the paths in per-dof ("LeftUpLeg.x", "root.height"; "*": of every DOF not named); empty when shared.
+  std::vector<std::string> dofs;
+  std::vector<double> means;  // per-dof: x y z w of each joint of the source, around which v is taken; empty when shared
   std::vector<SkippedFrame> skipped;
   std::vector<double> energy;     // after every half-step, the first value first
   int rounds = 0;
