@@ -58,12 +58,15 @@ struct ParamType {
   double soft_min = std::numeric_limits<double>::quiet_NaN();  // of the slider; NaN = no slider
   double soft_max = std::numeric_limits<double>::quiet_NaN();
   bool in_key = true;  // false: never changes a result (an Export's file name)
+  // Of a text with a grammar of its own (a Check's rule): throws Failure that says what is wrong with it.
+  void (*check_text)(std::string_view) = nullptr;
 
   // Builders, so that a node's description reads as a list: number(0.5).between(0, 1).in("s").slider(0, 2)
   ParamType&& between(double low, double high) && { min = low; max = high; return std::move(*this); }
   ParamType&& in(std::string text) && { unit = std::move(text); return std::move(*this); }
   ParamType&& slider(double low, double high) && { soft_min = low; soft_max = high; return std::move(*this); }
   ParamType&& outside_key() && { in_key = false; return std::move(*this); }
+  ParamType&& checked_by(void (*check)(std::string_view)) && { check_text = check; return std::move(*this); }
   // Name and help of a field inside object(...).
   ParamType&& as(std::string field, std::string text) && { name = std::move(field); help = std::move(text); return std::move(*this); }
   // Makes a field of an object one that may be left out.

@@ -43,6 +43,8 @@ class Checker {
         if (!value.is_boolean()) wrong_type(type, value, where);
         return;
       case Kind::text:
+        if (!value.is_string()) return wrong_type(type, value, where);
+        return check_text(type, value, where);
       case Kind::pattern:
       case Kind::open_file:
       case Kind::save_file:
@@ -96,6 +98,15 @@ class Checker {
     add(error("wrong-type", fmt::format("{} is {}", shown(value), name_of(value.kind())))
             .hinting("wanted is " + described(type)),
         value, where);
+  }
+
+  void check_text(const ParamType& type, const Json& value, const std::string& where) {
+    if (!type.check_text) return;
+    try {
+      type.check_text(value.string());
+    } catch (const Failure& failure) {
+      add(failure.diagnostic(), value, where);
+    }
   }
 
   void check_number(const ParamType& type, const Json& value, const std::string& where) {

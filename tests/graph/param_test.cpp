@@ -80,6 +80,15 @@ TEST(Check, ComplainsOfTheAlternativeThatFitsBest) {
   EXPECT_EQ(problems(one_or_list, "true"), Codes{"wrong-type p"});
 }
 
+TEST(Check, AsksATextsOwnGrammar) {
+  auto grammar = [](std::string_view rule) {
+    if (rule.find('<') == std::string_view::npos) throw Failure(error("bad-rule", "expected <"));
+  };
+  const ParamType rules = list(text("").checked_by(grammar));
+  EXPECT_EQ(problems(rules, R"(["a < 1", "a = 1"])"), Codes{"bad-rule p[1]"});
+  EXPECT_EQ(problems(rules, "[1]"), Codes{"wrong-type p[0]"});
+}
+
 TEST(Completed, MakesEqualMeaningEqual) {
   EXPECT_EQ(compact(completed(edits(), json(R"([{"op": "scale", "component": 2.0}])")), true),
             R"([{"component": 2, "factor": 1, "frames": null, "op": "scale"}])");
