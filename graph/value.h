@@ -48,6 +48,7 @@ class Decoder {
   std::vector<std::uint32_t> u32s();
   std::vector<std::uint8_t> bytes();
   bool at_end() const { return rest_.empty(); }
+  std::string_view rest() const { return rest_; }
 
  private:
   std::string_view take(std::size_t count);
