@@ -40,6 +40,10 @@ struct Migration {
 class FileAccess;
 using Companions = std::function<std::vector<std::string>(const Params&, FileAccess&)>;
 
+// Files that an Effect::writes node will write beside those its save_file parameters name (a .gltf's .bin): absolute
+// paths in a fixed order, so that two nodes on one file are found before anything runs.
+using AlsoWrites = std::function<std::vector<std::string>(const Params&)>;
+
 // Resolves parameters left to auto whose meaning depends on a file's name, so that keys hold what they resolved to.
 using Resolve = std::function<void(Json::Object& params)>;
 
@@ -62,6 +66,7 @@ struct NodeType {
   std::vector<Param> params;
   std::vector<Migration> migrations;
   Companions companions;
+  AlsoWrites also_writes;
   Resolve resolve;
   std::function<void(Compute&)> compute;  // stateless, sees only what is declared here
 

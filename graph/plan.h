@@ -37,6 +37,7 @@ struct Plan {
   std::map<std::string, int> by_name;
   std::string file;    // how messages name the graph
   std::string folder;  // absolute
+  std::vector<std::string> graph_files;  // absolute: this file, where it is one, and the nested ones; never written to
   // What a "node.port" stands for after expansion (also of Graph, Switch, Dot and disabled nodes); nothing: absent.
   std::optional<Source> find_output(const std::string& node, const std::string& port) const;
   std::map<std::string, std::map<std::string, Source>> passed;  // node -> port -> source, for nodes without a key
