@@ -19,6 +19,7 @@ struct Link {
   bool operator==(const Link& other) const { return node == other.node && port == other.port; }
 };
 std::string to_text(const Link& link);  // "node.port"
+std::optional<Link> link_from_text(std::string_view text);  // nothing when it isn't NAME.NAME
 
 // The links of one input port. `list`: stands as a list in the file, as it must on a port that takes several.
 struct Inputs {
@@ -77,6 +78,7 @@ bool is_extra_key(std::string_view key);   // starts with "x-"
 struct Unit {
   enum class Kind {
     node,            // a whole node: value as in the file
+    missing_node,    // the same for a missing node, which is absent as a `node`: its value is kept as read
     node_type,       // type and version together: {"type", "version"}
     node_enabled, node_note,
     node_param,      // name = node, key = param
@@ -96,11 +98,14 @@ std::string to_text(const Unit& unit);  // "transfer.root", "publish.params.sour
 
 // The unit's value in the file's form, or nothing where it is absent (a parameter at its default, an open port).
 std::optional<Json> get(const Document& document, const Unit& unit);
-// Sets or, given nothing, removes it. Throws std::logic_error for a unit of a node that isn't there.
+// Sets or, given nothing, removes it. Throws std::logic_error for a unit of a node that isn't there. On a missing node
+// the units of its parts read and change the object it is kept as.
 void set(Document& document, const Unit& unit, std::optional<Json> value);
 
-// A node's object in the file's form, and back. `from_json` does no checking beyond shape: read.h has done it.
+// A node's object in the file's form, and back. They do no checking: what doesn't have the file's form is left out, and
+// read.h has complained of it.
 Json to_json(const Node& node);
 Node node_from_json(const Json& json);
+Node missing_node_from_json(Json json);  // `missing` set, and what can be understood of it
 
 }  // namespace kinegraph

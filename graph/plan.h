@@ -17,7 +17,7 @@ struct Source {
   int node = -1;  // index into Plan::nodes; -1 with a constant
   std::string port;
   ValuePtr constant;        // made once by the plan
-  std::string constant_id;  // "Warp" …: what it is keyed as
+  std::string constant_id;  // "TimeWarp.warp": the node type and port whose constant it is, what it is keyed as
 };
 
 struct PlannedNode {
@@ -33,6 +33,8 @@ struct PlannedNode {
 };
 
 struct Plan {
+  // Computing nodes, disabled ones among them (nothing leads to those), and missing ones. Graph, Switch and Dot are not
+  // here: `passed` says what they stand for.
   std::vector<PlannedNode> nodes;
   std::map<std::string, int> by_name;
   std::string file;    // how messages name the graph
@@ -40,9 +42,12 @@ struct Plan {
   std::vector<std::string> graph_files;  // absolute: this file, where it is one, and the nested ones; never written to
   // What a "node.port" stands for after expansion (also of Graph, Switch, Dot and disabled nodes); nothing: absent.
   std::optional<Source> find_output(const std::string& node, const std::string& port) const;
-  std::map<std::string, std::map<std::string, Source>> passed;  // node -> port -> source, for nodes without a key
+  // Node -> port -> source, for nodes without a key (Graph, Switch, Dot, disabled nodes). Every such node is in it; a port
+  // that is absent is not.
+  std::map<std::string, std::map<std::string, Source>> passed;
   std::map<std::string, Source> published;                      // publish.outputs
-  std::vector<std::string> effects;                             // enabled Export and Check nodes of this file
+  std::vector<std::string> effects;    // enabled Export and Check nodes of this file, not of nested ones
+  std::vector<std::string> set_paths;  // absolute paths given with --set: they may lie outside
 };
 
 struct PlanOptions {
@@ -50,10 +55,12 @@ struct PlanOptions {
   std::string folder;    // absolute folder of the graph file
   std::string set_folder;  // absolute folder that paths given with --set start from
   std::string out;       // absolute folder that save_file parameters start from
-  std::map<std::string, Json> variables;
+  std::map<std::string, Json> variables;  // given with --var: a string is read as the parameter's type asks
   std::vector<std::pair<std::string, std::string>> sets;  // "NODE.PARAM" (or a published name) and the text
 };
-// Adds problems (unknown-node and unknown-param of a --set carry code "usage:..."); the plan is usable without errors.
+// `document` has passed validate() without errors. Adds problems; the plan is usable without errors among them. Those of
+// a --set are wrong usage and their codes start "usage:" ("usage:unknown-node", "usage:unknown-param",
+// "usage:bad-value", and "usage:" before the codes of check()).
 Plan make_plan(const Document& document, const Registry& registry, const PlanOptions& options, Diagnostics& problems);
 
 }  // namespace kinegraph

@@ -6,6 +6,7 @@
 
 #include "graph/document.h"
 #include "graph/registry.h"
+#include "graph/variables.h"
 
 namespace kinegraph {
 
@@ -13,14 +14,10 @@ struct ValidateOptions {
   std::string file;       // how messages name the graph
   std::string folder;     // absolute; relative paths in the graph start here
   bool check_files = true;  // missing input files are errors
-  std::map<std::string, Json> variables;  // given with --var: they come before the document's
+  bool allow_outside = false;  // files may be written outside the folder
+  std::map<std::string, Json> variables;  // given with --var: they come before the document's (see variables.h)
 };
 // Every problem, in file order. Places point into the file where the document was read from one.
 Diagnostics validate(const Document& document, const Registry& registry, const ValidateOptions& options);
-
-// A value with "${name}" and paths' "${name}" parts replaced, "$${" unescaped. Problems: "undefined-variable".
-// `item_variables`: `${item}` and `${index}` stay as they are (a batch fills them in).
-Json substituted(const Json& value, const ParamType& type, const std::map<std::string, Json>& variables,
-                 const std::string& where, Diagnostics& problems);
 
 }  // namespace kinegraph
