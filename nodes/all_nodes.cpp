@@ -1,5 +1,6 @@
 #include "nodes/all_nodes.h"
 
+#include "graph/builtin_nodes.h"
 #include "nodes/motion/motion.h"
 
 namespace kinegraph {
@@ -11,6 +12,8 @@ Registry all_nodes() {
   Registry registry;
   registry.add(ValueType{.name = "Motion", .help = "a skeleton that moves", .decode = decode_motion});
   registry.add(gait_node());
+  registry.add(switch_node());
+  registry.add(dot_node());
   return registry;
 }
 
