@@ -65,13 +65,11 @@ int mapped_joint(const Skeleton& skeleton, std::string_view name, const std::str
                  const char* which) {
   int joint = skeleton.find(name);
   if (joint >= 0) return joint;
-  std::string near = nearest(name, names_of(skeleton));
   throw Failure(
       error("unknown-joint", fmt::format("\"{}\": the {} motion has no joint \"{}\"", entry, which, name))
           .at_param(fmt::format("map[{}]", index))
           .at_joint(std::string(name))
-          .hinting(near.empty() ? "write FROM=TO, a joint of the second input before one of the main input"
-                                : fmt::format("did you mean \"{}\"?", near)));
+          .hinting(suggestion(name, names_of(skeleton))));
 }
 
 }  // namespace
