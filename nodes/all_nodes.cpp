@@ -1,7 +1,12 @@
 #include "nodes/all_nodes.h"
 
 #include "graph/builtin_nodes.h"
+#include "nodes/judge/metrics.h"
+#include "nodes/motion/contacts.h"
 #include "nodes/motion/motion.h"
+#include "nodes/motion/points.h"
+#include "nodes/style/stats.h"
+#include "nodes/time/warp.h"
 
 namespace kinegraph {
 
@@ -11,6 +16,17 @@ NodeType gait_node();
 Registry all_nodes() {
   Registry registry;
   registry.add(ValueType{.name = "Motion", .help = "a skeleton that moves", .decode = decode_motion});
+  registry.add(ValueType{.name = "Points",
+                         .help = "labelled points over time",
+                         .decode = decode_points,
+                         .convert_from = "Motion",
+                         .convert = points_of_motion});
+  registry.add(ValueType{.name = "Warp", .help = "a time warp between two motions", .decode = decode_warp});
+  registry.add(ValueType{
+      .name = "Stats", .help = "the statistics that carry a motion's style", .decode = decode_stats});
+  registry.add(ValueType{
+      .name = "Contacts", .help = "when which part of a foot is planted", .decode = decode_contacts});
+  registry.add(ValueType{.name = "Metrics", .help = "named numbers", .decode = decode_metrics});
   registry.add(gait_node());
   registry.add(switch_node());
   registry.add(dot_node());
