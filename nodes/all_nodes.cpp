@@ -12,6 +12,8 @@ namespace kinegraph {
 
 // One line a type: the function is defined in NAME_node.cpp of its family's folder.
 NodeType gait_node();
+NodeType quat_stats_node();
+NodeType check_node();
 
 Registry all_nodes() {
   Registry registry;
@@ -28,6 +30,8 @@ Registry all_nodes() {
       .name = "Contacts", .help = "when which part of a foot is planted", .decode = decode_contacts});
   registry.add(ValueType{.name = "Metrics", .help = "named numbers", .decode = decode_metrics});
   registry.add(gait_node());
+  registry.add(quat_stats_node());
+  registry.add(check_node());
   registry.add(switch_node());
   registry.add(dot_node());
   return registry;

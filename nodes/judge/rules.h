@@ -1,0 +1,32 @@
+// Rules that a motion's numbers must keep: `skate < 0.02`, `jerk.LeftFoot <= 1.05 * baseline.jerk.LeftFoot`.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "nodes/judge/metrics.h"
+
+namespace kinegraph {
+
+// NAME (<|<=|>|>=) NUMBER, or NAME (<|<=|>|>=) [NUMBER *] baseline.NAME. Spaces may stand between the parts.
+struct Rule {
+  enum class Relation { less, at_most, greater, at_least };
+  std::string text;  // as written
+  std::string name;  // [A-Za-z0-9_.-]+
+  Relation relation = Relation::less;
+  double number = 0;     // the limit, or the factor of the baseline's
+  std::string baseline;  // name in the baseline; "" = number is the limit
+};
+
+// Throws Failure ("bad-rule") that says what was expected and where.
+Rule parse_rule(std::string_view text);
+
+struct RuleOutcome {
+  std::optional<double> value;  // null or unknown: nothing
+  std::optional<double> limit;
+  bool passed = false;  // never where either is missing
+};
+// `baseline` may be null.
+RuleOutcome evaluate(const Rule& rule, const Metrics& metrics, const Metrics* baseline);
+
+}  // namespace kinegraph
