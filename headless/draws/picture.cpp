@@ -1,0 +1,28 @@
+#include "headless/draws/picture.h"
+
+#include "graph/diagnostic.h"
+#include "headless/draws/contact_bars.h"
+#include "headless/draws/sheets.h"
+#include "headless/draws/strip.h"
+
+namespace kinegraph {
+
+Canvas picture_of(const Value& value, const PictureOptions& options) {
+  if (auto motion = dynamic_cast<const Motion*>(&value)) {
+    StripOptions strip{.title = options.title, .moments = options.moments, .contact_bars = false};
+    return draw_strips({{motion, "", options.contacts}}, strip);
+  }
+  if (auto contacts = dynamic_cast<const Contacts*>(&value)) {
+    if (!options.motion || options.motion->frames() != contacts->frames)
+      return draw_contacts(*contacts, options.title);
+    StripOptions strip{.title = options.title, .subtitle = facts_of(*contacts), .moments = options.moments};
+    return draw_strips({{options.motion, "", contacts}}, strip);
+  }
+  if (auto warp = dynamic_cast<const Warp*>(&value)) return draw_warp(*warp, options.title);
+  if (auto stats = dynamic_cast<const Stats*>(&value)) return draw_stats(*stats, options.title);
+  if (auto metrics = dynamic_cast<const Metrics*>(&value)) return draw_metrics(*metrics, options.title);
+  throw Failure(error("no-picture", "a value of type " + std::string(value.type()) + " has no picture")
+                    .hinting("draw an output of type Motion, Contacts, Warp, Stats or Metrics"));
+}
+
+}  // namespace kinegraph
