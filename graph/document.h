@@ -40,7 +40,8 @@ struct Node {
   // Set where the node's type is unknown or its version newer: the node's whole object as read. The fields above hold
   // what could be understood of it (type, inputs), for drawing and dependency; this is what is written back.
   std::optional<Json> missing;
-  Place place;
+  bool older = false;  // a known type's older version, read without migrating: kept in `missing` too, for writing only
+  Place place;         // of its name
 };
 
 // Names -> "node.param" or "node.port" targets. One target is written as a string, several as a list.

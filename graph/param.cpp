@@ -118,6 +118,14 @@ Json completed(const ParamType& type, const Json& value) {
   return result;
 }
 
+bool is_default(const Param& param, const Json& value) {
+  if (!param.fallback) return false;
+  if (value == *param.fallback) return true;
+  const bool structured = value.is_array() || value.is_object();
+  return structured && check(param, value, "").empty() &&
+         completed(param, value) == completed(param, *param.fallback);
+}
+
 namespace {
 
 [[noreturn]] void wrong(std::string_view name, const char* kind) {

@@ -99,6 +99,8 @@ std::string described(const ParamType& type);
 Diagnostics check(const ParamType& type, const Json& value, const std::string& where);
 // The value with every field that was left out filled in and numbers normalised (-0 to 0): equal meaning, equal Json.
 Json completed(const ParamType& type, const Json& value);
+// Whether a stored value means the same as the parameter's default, so that it needn't be saved.
+bool is_default(const Param& param, const Json& value);
 // A value from the command line: JSON, or bare text for strings, choices, patterns, paths and units; `10:200` or `10:` for a range.
 // Throws Failure ("bad-value") when it is neither; whether it fits is for check() to say.
 Json parse_value(const ParamType& type, std::string_view text);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "graph/document.h"
+#include "graph/file/read.h"
 #include "graph/registry.h"
 #include "graph/variables.h"
 
@@ -17,7 +18,14 @@ struct ValidateOptions {
   bool allow_outside = false;  // files may be written outside the folder
   std::map<std::string, Json> variables;  // given with --var: they come before the document's (see variables.h)
 };
-// Every problem, in file order. Places point into the file where the document was read from one.
+// Every problem, in file order. Places point into the file where the document was read from one. A document that could
+// be read only in part is checked as far as it goes.
+// Codes: "unknown-node", "unknown-port", "type-mismatch", "open-input", "cycle", "index-out-of-range", "unknown-param",
+// "undefined-variable" and the others of substituted(), those of check(), "absolute-path" and "backslash-path"
+// (warnings), "leads-outside", "missing-file", "not-a-regular-file", "same-file".
 Diagnostics validate(const Document& document, const Registry& registry, const ValidateOptions& options);
+
+// Reads and validates: all problems of a file at once, in file order.
+ReadResult read_and_validate(std::string_view text, const Registry& registry, const ValidateOptions& options);
 
 }  // namespace kinegraph

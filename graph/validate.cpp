@@ -1,0 +1,400 @@
+#include "graph/validate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "graph/links.h"
+
+namespace kinegraph {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = ParamType::Kind;
+
+class Validator {
+ public:
+  Validator(const Document& document, const Registry& registry, const ValidateOptions& options)
+      : document_(document), registry_(registry), options_(options) {
+    variables_.given = options.variables;
+    variables_.files = {&document.variables};
+    variables_.batch_fills_in = true;
+    for (const auto& [name, node] : document.nodes) names_.push_back(name);
+  }
+
+  Diagnostics validate() {
+    if (document_.read_only) return {};
+    for (const auto& [name, node] : document_.nodes) {
+      const NodeType* type = node.missing ? nullptr : registry_.find(node.type);
+      if (!type) continue;  // reading has spoken of it
+      check_params(name, node, *type);
+      check_inputs(name, node, *type);
+      if (type->role == Role::select) check_choice(name, node, *type);
+    }
+    check_cycles();
+    check_publish();
+    check_shared_files();
+    std::stable_sort(problems_.begin(), problems_.end(), [](const Diagnostic& a, const Diagnostic& b) {
+      return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+    });
+    return std::move(problems_);
+  }
+
+ private:
+  void add(Diagnostic diagnostic, Place place, const std::string& node = {}) {
+    diagnostic.node = node;
+    problems_.push_back(std::move(diagnostic).in_file(options_.file, place));
+  }
+
+  // A stored parameter, or its default, with variables replaced; nothing where that failed.
+  std::optional<Json> value_of(const Node& node, const Param& param, Diagnostics& found) const {
+    const auto stored = node.params.find(param.name);
+    if (stored == node.params.end()) return param.fallback;
+    Json value = substituted(stored->second, param, variables_, param.name, found);
+    if (has_error(found)) return {};
+    Diagnostics wrong = check(param, value, param.name);
+    const bool fits = wrong.empty();
+    for (Diagnostic& problem : wrong) {
+      // A variable's value stands elsewhere; the message points to where it is used.
+      if (!whole_variable(stored->second.is_string() ? stored->second.string() : "").empty())
+        problem.place = stored->second.place;
+      found.push_back(std::move(problem));
+    }
+    if (!fits) return {};
+    return value;
+  }
+
+  void check_params(const std::string& name, const Node& node, const NodeType& type) {
+    for (const auto& [key, stored] : node.params) {
+      const Param* param = type.find_param(key);
+      if (!param) continue;
+      Diagnostics found;
+      const auto value = value_of(node, *param, found);
+      for (Diagnostic& problem : found) {
+        const Place place = problem.place.line > 0 ? problem.place : stored.place;
+        add(std::move(problem), place, name);
+      }
+      if (value) check_paths(name, node, *param, *value, key);
+    }
+  }
+
+  void check_paths(const std::string& name, const Node& node, const ParamType& type, const Json& value,
+                   const std::string& where) {
+    switch (type.kind) {
+      case Kind::open_file:
+      case Kind::save_file:
+        if (value.is_string() && !value.string().empty()) check_path(name, node, type, value, where);
+        return;
+      case Kind::list:
+      case Kind::tuple:
+        for (std::size_t i = 0; i < value.array().size(); ++i)
+          check_paths(name, node, type.parts[type.kind == Kind::list ? 0 : i], value.array()[i],
+                      fmt::format("{}[{}]", where, i));
+        return;
+      case Kind::object:
+        for (const ParamType& field : type.parts)
+          if (const Json* member = value.find(field.name); member && !member->is_null())
+            check_paths(name, node, field, *member, where + "." + field.name);
+        return;
+      case Kind::table:
+        for (const auto& [key, member] : value.object())
+          check_paths(name, node, type.parts[0], member, where + "." + key);
+        return;
+      case Kind::either:
+        for (const ParamType& part : type.parts)
+          if (check(part, value, where).empty()) return check_paths(name, node, part, value, where);
+        return;
+      default:
+        return;
+    }
+  }
+
+  void check_path(const std::string& name, const Node& node, const ParamType& type, const Json& value,
+                  const std::string& where) {
+    const std::string& path = value.string();
+    const bool drive = path.size() > 2 && path[1] == ':' && (path[2] == '/' || path[2] == '\\');
+    const bool absolute = path.front() == '/' || drive;
+    const auto problem = [&](Diagnostic diagnostic) {
+      add(std::move(diagnostic).at_param(where), value.place, name);
+    };
+    if (path.find('\\') != std::string::npos)
+      problem(warning("backslash-path", fmt::format("{} has a backslash", in_quotes(path)))
+                  .hinting("paths use forward slashes"));
+    if (type.kind == Kind::save_file) {
+      const std::string normal = fs::path(path).lexically_normal().generic_string();
+      if (!options_.allow_outside && (absolute || normal == ".." || normal.starts_with("../")))
+        problem(error("leads-outside",
+                      fmt::format("{} leads out of the folder that is written to", in_quotes(path)))
+                    .hinting("a path below --out; --allow-outside lets it be"));
+      else if (absolute)
+        problem(absolute_path(path));
+      return;
+    }
+    if (absolute) problem(absolute_path(path));
+    if (!options_.check_files || !node.enabled || drive) return;
+    const fs::path file = fs::path(options_.folder) / path;
+    std::error_code ignored;
+    const fs::file_status status = fs::status(file, ignored);
+    if (!fs::exists(status))
+      problem(error("missing-file", fmt::format("there is no file {}", in_quotes(path)))
+                  .hinting(file_hint(file)));
+    else if (!fs::is_regular_file(status))
+      problem(error("not-a-regular-file", fmt::format("{} is no regular file", in_quotes(path))));
+  }
+
+  static Diagnostic absolute_path(const std::string& path) {
+    return warning("absolute-path", fmt::format("{} is an absolute path", in_quotes(path)))
+        .hinting("a path relative to the graph file works on every machine");
+  }
+
+  static std::string file_hint(const fs::path& file) {
+    std::error_code failed;
+    const fs::path folder = file.parent_path();
+    std::vector<std::string> names;
+    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
+      names.push_back(entry->path().filename().string());
+    if (failed)
+      return fmt::format("there is no folder {} either", in_quotes(folder.lexically_normal().string()));
+    std::sort(names.begin(), names.end());
+    const std::string near = nearest(file.filename().string(), names);
+    return near.empty() ? "paths are relative to the graph file" : fmt::format("did you mean \"{}\"?", near);
+  }
+
+  void check_inputs(const std::string& name, const Node& node, const NodeType& type) {
+    for (const auto& [key, inputs] : node.inputs)
+      if (const InputPort* port = type.find_input(key))
+        for (const Link& link : inputs.links) check_link(name, *port, link);
+    if (!node.enabled || type.role != Role::compute) return;
+    for (const InputPort& port : type.inputs)
+      if (!port.optional && !node.inputs.count(port.name) && !is_published_input(name, port.name))
+        add(error("open-input", fmt::format("{} needs a link to its input \"{}\"", type.name, port.name))
+                .at_port(port.name)
+                .hinting(fmt::format("{}: {}", fmt::join(port.types, " or "), port.help)),
+            node.place, name);
+  }
+
+  void check_link(const std::string& name, const InputPort& port, const Link& link) {
+    const auto from = document_.nodes.find(link.node);
+    if (from == document_.nodes.end())
+      return add(error("unknown-node", fmt::format("there is no node \"{}\"", link.node))
+                     .at_port(port.name)
+                     .hinting(suggestion(link.node, names_)),
+                 link.place, name);
+    const NodeType* type = from->second.missing ? nullptr : registry_.find(from->second.type);
+    if (!type) return;
+    if (!type->find_output(link.port) && type->role != Role::graph)
+      return add(error("unknown-port", fmt::format("{} has no output \"{}\"", link.node, link.port))
+                     .at_port(port.name)
+                     .hinting(suggestion(link.port, type->output_names())),
+                 link.place, name);
+    const auto arriving = type_of_output(document_, registry_, link);
+    if (arriving && registry_.arrives_as(*arriving, port).empty())
+      add(error("type-mismatch", fmt::format("{} gives {}, and {} takes {}", to_text(link), *arriving,
+                                             port.name, fmt::join(port.types, " or ")))
+              .at_port(port.name)
+              .hinting(outputs_that_fit(*type, port)),
+          link.place, name);
+  }
+
+  std::string outputs_that_fit(const NodeType& type, const InputPort& port) const {
+    for (const OutputPort& output : type.outputs)
+      if (!output.type.empty() && !registry_.arrives_as(output.type, port).empty())
+        return fmt::format("its output \"{}\" would fit", output.name);
+    return fmt::format("link {}", fmt::join(port.types, " or "));
+  }
+
+  bool is_published_input(const std::string& node, const std::string& port) const {
+    return std::any_of(
+        document_.publish.inputs.begin(), document_.publish.inputs.end(), [&](const auto& published) {
+          return std::find(published.second.begin(), published.second.end(), Link{node, port, {}}) !=
+                 published.second.end();
+        });
+  }
+
+  // A Switch: its index, and that its links are of one type.
+  void check_choice(const std::string& name, const Node& node, const NodeType& type) {
+    const InputPort& port = type.inputs.front();
+    const auto inputs = node.inputs.find(port.name);
+    const std::size_t count = inputs == node.inputs.end() ? 0 : inputs->second.links.size();
+    const Param* param = type.find_param("index");
+    Diagnostics ignored;
+    const auto index = param ? value_of(node, *param, ignored) : std::nullopt;
+    const auto stored = node.params.find("index");
+    if (node.enabled && index && index->is_number() && !(index->number() < static_cast<double>(count)))
+      add(error("index-out-of-range",
+                fmt::format("index {} of {} links", shortest_number(index->number()), count))
+              .at_param("index")
+              .hinting("links count from 0"),
+          stored == node.params.end() ? node.place : stored->second.place, name);
+    std::optional<std::string> first;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Link& link = inputs->second.links[i];
+      const auto there = type_of_output(document_, registry_, link);
+      if (there && first && *there != *first)
+        add(error("type-mismatch",
+                  fmt::format("{} gives {}, the link before it {}", to_text(link), *there, *first))
+                .at_port(port.name)
+                .hinting("links of one type"),
+            link.place, name);
+      if (there && !first) first = there;
+    }
+  }
+
+  void check_cycles() {
+    for (const auto& cycle : cycles(document_)) {
+      // Where it can be cut: the link by which the last node leads back to the first.
+      const Node& first = document_.nodes.at(cycle.front());
+      Place place = first.place;
+      std::string port;
+      for (const auto& [key, inputs] : first.inputs)
+        for (const Link& link : inputs.links)
+          if (link.node == cycle.back()) {
+            place = link.place;
+            port = key;
+          }
+      add(error("cycle", fmt::format("{} → {} depend on each other in a circle", fmt::join(cycle, " → "),
+                                     cycle.front()))
+              .at_port(port)
+              .hinting("remove one of these links"),
+          place, cycle.front());
+    }
+  }
+
+  const NodeType* published_type(const Link& target, const std::string& where) {
+    const auto node = document_.nodes.find(target.node);
+    if (node == document_.nodes.end()) {
+      add(error("unknown-node", fmt::format("there is no node \"{}\"", target.node))
+              .at_param(where)
+              .hinting(suggestion(target.node, names_)),
+          target.place);
+      return nullptr;
+    }
+    return node->second.missing ? nullptr : registry_.find(node->second.type);
+  }
+  void unknown_published(const char* code, const Link& target, const char* what,
+                         const std::vector<std::string>& known, const std::string& where) {
+    add(error(code, fmt::format("{} has no {} \"{}\"", target.node, what, target.port))
+            .at_param(where)
+            .hinting(suggestion(target.port, known)),
+        target.place);
+  }
+
+  static bool same_form(const ParamType& a, const ParamType& b) {
+    const auto same_choice = [](const auto& x, const auto& y) { return x.key == y.key; };
+    const auto same_part = [](const ParamType& x, const ParamType& y) {
+      return x.name == y.name && same_form(x, y);
+    };
+    return a.kind == b.kind &&
+           std::equal(a.choices.begin(), a.choices.end(), b.choices.begin(), b.choices.end(), same_choice) &&
+           std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(), same_part);
+  }
+
+  void check_publish() {
+    for (const auto& [name, targets] : document_.publish.params) {
+      const std::string where = "publish.params." + name;
+      const Param* first = nullptr;
+      for (const Link& target : targets) {
+        const NodeType* type = published_type(target, where);
+        if (!type || type->role == Role::graph) continue;
+        const Param* param = type->find_param(target.port);
+        if (!param) {
+          unknown_published("unknown-param", target, "parameter", type->param_names(), where);
+        } else if (first && !same_form(*first, *param)) {
+          add(error("type-mismatch", fmt::format("{} is {}, and what is published with it {}",
+                                                 to_text(target), described(*param), described(*first)))
+                  .at_param(where)
+                  .hinting("one name sets parameters of one type"),
+              target.place);
+        } else if (!first) {
+          first = param;
+        }
+      }
+    }
+    for (const auto& [name, targets] : document_.publish.inputs) {
+      const std::string where = "publish.inputs." + name;
+      const InputPort* first = nullptr;
+      for (const Link& target : targets) {
+        const NodeType* type = published_type(target, where);
+        if (!type || type->role == Role::graph) continue;
+        const InputPort* port = type->find_input(target.port);
+        if (!port) {
+          unknown_published("unknown-port", target, "input", type->input_names(), where);
+          continue;
+        }
+        if (!first) first = port;
+        const bool shared =
+            first->types.empty() || port->types.empty() ||
+            std::any_of(first->types.begin(), first->types.end(),
+                        [&](const std::string& one) { return !registry_.arrives_as(one, *port).empty(); });
+        if (!shared)
+          add(error("type-mismatch",
+                    fmt::format("{} takes {}, and what is published with it {}", to_text(target),
+                                fmt::join(port->types, " or "), fmt::join(first->types, " or ")))
+                  .at_param(where)
+                  .hinting("one name stands for ports of one type"),
+              target.place);
+      }
+    }
+    for (const auto& [name, targets] : document_.publish.outputs) {
+      const std::string where = "publish.outputs." + name;
+      for (const Link& target : targets) {
+        const NodeType* type = published_type(target, where);
+        if (type && type->role != Role::graph && !type->find_output(target.port))
+          unknown_published("unknown-port", target, "output", type->output_names(), where);
+      }
+    }
+  }
+
+  // Two enabled nodes that write one file. Companions are found out later, when it is known what is written.
+  void check_shared_files() {
+    std::map<std::string, std::string> writers;
+    for (const auto& [name, node] : document_.nodes) {
+      const NodeType* type = node.missing || !node.enabled ? nullptr : registry_.find(node.type);
+      if (!type || type->effect != Effect::writes) continue;
+      for (const Param& param : type->params) {
+        if (param.kind != Kind::save_file) continue;
+        Diagnostics ignored;
+        const auto value = value_of(node, param, ignored);
+        if (!value || !value->is_string() || value->string().empty()) continue;
+        const std::string path = fs::path(value->string()).lexically_normal().generic_string();
+        const auto [other, fresh] = writers.emplace(path, name);
+        const auto stored = node.params.find(param.name);
+        if (!fresh)
+          add(error("same-file",
+                    fmt::format("{} writes {} as well", other->second, in_quotes(value->string())))
+                  .at_param(param.name)
+                  .hinting("give each a file of its own"),
+              stored == node.params.end() ? node.place : stored->second.place, name);
+      }
+    }
+  }
+
+  const Document& document_;
+  const Registry& registry_;
+  const ValidateOptions& options_;
+  Variables variables_;
+  std::vector<std::string> names_;
+  Diagnostics problems_;
+};
+
+}  // namespace
+
+Diagnostics validate(const Document& document, const Registry& registry, const ValidateOptions& options) {
+  return Validator(document, registry, options).validate();
+}
+
+ReadResult read_and_validate(std::string_view text, const Registry& registry,
+                             const ValidateOptions& options) {
+  ReadResult result = read_document(text, options.file, registry);
+  for (Diagnostic& problem : validate(result.document, registry, options))
+    result.problems.push_back(std::move(problem));
+  std::stable_sort(result.problems.begin(), result.problems.end(),
+                   [](const Diagnostic& a, const Diagnostic& b) {
+                     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+                   });
+  return result;
+}
+
+}  // namespace kinegraph
