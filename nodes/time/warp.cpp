@@ -7,7 +7,7 @@
 namespace kinegraph {
 
 std::size_t Warp::bytes() const {
-  std::size_t sum = sizeof(Warp) + sizeof(double) * energy.capacity();
+  std::size_t sum = sizeof(Warp) + sizeof(double) * (energy.capacity() + means.capacity());
   for (const auto& path : paths) sum += sizeof(path) + sizeof(path[0]) * path.capacity();
   for (const auto& name : dofs) sum += sizeof(name) + name.capacity();
   for (const auto& frame : skipped) sum += sizeof(frame) + sizeof(double) * frame.logs.capacity();
@@ -22,6 +22,7 @@ void Warp::encode(Encoder& out) const {
   out.u32(reference_frames);
   encode_list(out, paths, [&](const std::vector<std::uint32_t>& path) { out.u32s(path); });
   encode_list(out, dofs, [&](const std::string& name) { out.text(name); });
+  out.f64s(means);
   encode_list(out, skipped, [&](const SkippedFrame& frame) {
     out.u32(frame.frame);
     out.f64(frame.d_x);
@@ -43,6 +44,7 @@ ValuePtr decode_warp(Decoder& in) {
   warp->reference_frames = in.u32();
   warp->paths = decode_list<std::vector<std::uint32_t>>(in, [&] { return in.u32s(); });
   warp->dofs = decode_list<std::string>(in, [&] { return in.text(); });
+  warp->means = in.f64s();
   warp->skipped = decode_list<SkippedFrame>(in, [&] {
     SkippedFrame frame;
     frame.frame = in.u32();
@@ -66,6 +68,8 @@ std::optional<NonFinite> Warp::non_finite() const {
   if (!std::isfinite(fps)) return NonFinite{"frames per second", "", {}};
   for (double e : energy)
     if (!std::isfinite(e)) return NonFinite{"energy", "", {}};
+  for (double m : means)
+    if (!std::isfinite(m)) return NonFinite{"mean", "", {}};
   for (const SkippedFrame& frame : skipped) {
     double sum = frame.d_x + frame.d_z + frame.d_heading + frame.height;
     for (double l : frame.logs) sum += l;
