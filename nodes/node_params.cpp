@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "nodes/motion/elementary.h"
+#include "nodes/motion/joint_pattern.h"
 
 namespace kinegraph {
 
 void add_joints_param(NodeType& type) {
-  type.param("joints", pattern("*"), "The joints it acts on: names, *, -Name, Name> with commas between.");
+  type.param("joints", pattern("*").checked_by(check_pattern),
+             "The joints it acts on: names, *, -Name, Name> with commas between.");
 }
 void add_range_param(NodeType& type) {
   type.param("range", range(), "The frames it acts on, from the first up to but without the second.");

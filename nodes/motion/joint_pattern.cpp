@@ -163,6 +163,10 @@ std::vector<bool> chosen_names(std::string_view pattern, const std::vector<std::
   return chosen(items, names, nullptr, param, work);
 }
 
+void check_pattern(std::string_view pattern) {
+  parsed(pattern, {});
+}
+
 std::vector<int> most_specific(const std::vector<std::string>& patterns, const Skeleton& skeleton,
                                std::string_view param, Work& work) {
   struct Match {
@@ -175,15 +179,20 @@ std::vector<int> most_specific(const std::vector<std::string>& patterns, const S
   for (std::size_t p = 0; p < patterns.size(); ++p) {
     auto items = parsed(patterns[p], param);
     auto flags = chosen(items, names, &skeleton, param, work);
+    Alone unheard;  // the line above has told already
+    std::vector<Match> matches_of(names.size(), Match{static_cast<int>(p), false, 0});
+    for (const Item& item : items) {
+      if (item.removes) continue;
+      auto taken = taken_by(item, names, &skeleton, param, unheard);
+      for (std::size_t j = 0; j < names.size(); ++j) {
+        if (!taken[j]) continue;
+        matches_of[j].exact = matches_of[j].exact || (item.exact && item.characters == names[j]);
+        matches_of[j].literals = std::max(matches_of[j].literals, item.literals);
+      }
+    }
     for (std::size_t j = 0; j < names.size(); ++j) {
       if (!flags[j]) continue;
-      Match match{static_cast<int>(p), false, 0};
-      for (const Item& item :
-           items) {  // of a list, the item that names the joint best; one that took an ancestor counts 0
-        if (item.removes || !matches(item, names[j])) continue;
-        match.exact = match.exact || item.exact;
-        match.literals = std::max(match.literals, item.literals);
-      }
+      const Match& match = matches_of[j];
       Match& kept = best[j];
       bool better = kept.pattern < 0                  ? true
                     : match.exact != kept.exact       ? match.exact

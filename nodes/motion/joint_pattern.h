@@ -22,6 +22,9 @@ std::vector<bool> chosen_joints(std::string_view pattern, const Skeleton& skelet
 std::vector<bool> chosen_names(std::string_view pattern, const std::vector<std::string>& names,
                                std::string_view param, Work& work);
 
+// Throws "bad-pattern" for a text that is no pattern, whatever the skeleton: for Param::checked_by.
+void check_pattern(std::string_view pattern);
+
 // The value of a table of patterns for each joint: the most specific match wins: exact name, then most
 // literal characters, then byte order. Index into `patterns`, or -1. A key without a joint is told as above.
 std::vector<int> most_specific(const std::vector<std::string>& patterns, const Skeleton& skeleton,
