@@ -14,6 +14,8 @@ namespace kinegraph {
 NodeType gait_node();
 NodeType quat_stats_node();
 NodeType check_node();
+NodeType time_warp_node();
+NodeType unwarp_time_node();
 
 Registry all_nodes() {
   Registry registry;
@@ -32,6 +34,8 @@ Registry all_nodes() {
   registry.add(gait_node());
   registry.add(quat_stats_node());
   registry.add(check_node());
+  registry.add(time_warp_node());
+  registry.add(unwarp_time_node());
   registry.add(switch_node());
   registry.add(dot_node());
   return registry;
