@@ -79,6 +79,26 @@ Quat mean_rotation(std::size_t frames, const Rotation& rotation) {
   return mean;
 }
 
+// 2 log(difference(joint, q)) of every joint and frame; the root's q is ρ.
+template <class Difference>
+Series vectors_of(const Motion& motion, const EncodedRoot& root, const Difference& difference, Work& work) {
+  const std::size_t frames = motion.frames(), joints = static_cast<std::size_t>(motion.joints());
+  Series v(frames, 3 * joints);
+  work.parallel(
+      joints, 1 + 20'000 / std::max<std::size_t>(frames, 1), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t joint = begin; joint < end; ++joint) {
+          work.check();
+          const ConstQuatTrack track = motion.rotation(static_cast<int>(joint));
+          for (std::size_t t = 0; t < frames; ++t) {
+            const Vec3 half = log(nearer(difference(joint, joint == 0 ? root.rho[t] : track[t]), Quat{}));
+            for (int axis = 0; axis < 3; ++axis)
+              v.dim(3 * joint + static_cast<std::size_t>(axis))[t] = 2 * half[axis];
+          }
+        }
+      });
+  return v;
+}
+
 }  // namespace
 
 const char* name_of_root_axis(int axis) {
@@ -115,26 +135,6 @@ std::vector<double>& root_axis(EncodedRoot& root, int axis) {
   return const_cast<std::vector<double>&>(root_axis(static_cast<const EncodedRoot&>(root), axis));
 }
 
-Series rotation_vectors_about(const std::vector<Quat>& means, const Motion& motion, const EncodedRoot& root,
-                              Work& work) {
-  const std::size_t frames = motion.frames();
-  Series v(frames, 3 * means.size());
-  work.parallel(means.size(), 1 + 20'000 / std::max<std::size_t>(frames, 1),
-                [&](std::size_t begin, std::size_t end) {
-                  for (std::size_t joint = begin; joint < end; ++joint) {
-                    work.check();
-                    const Quat back = inverse(means[joint]);
-                    const ConstQuatTrack track = motion.rotation(static_cast<int>(joint));
-                    for (std::size_t t = 0; t < frames; ++t) {
-                      const Vec3 half = log(nearer(back * (joint == 0 ? root.rho[t] : track[t]), Quat{}));
-                      for (int axis = 0; axis < 3; ++axis)
-                        v.dim(3 * joint + static_cast<std::size_t>(axis))[t] = 2 * half[axis];
-                    }
-                  }
-                });
-  return v;
-}
-
 RotationVectors rotation_vectors(const Motion& motion, const EncodedRoot& root, Work& work) {
   RotationVectors result;
   const auto joints = static_cast<std::size_t>(motion.joints());
@@ -148,8 +148,27 @@ RotationVectors rotation_vectors(const Motion& motion, const EncodedRoot& root, 
                         motion.frames(), [&](std::size_t t) { return joint == 0 ? root.rho[t] : track[t]; });
                   }
                 });
-  result.v = rotation_vectors_about(result.means, motion, root, work);
+  result.v = vectors_of(
+      motion, root, [&](std::size_t joint, Quat q) { return inverse(result.means[joint]) * q; }, work);
   return result;
+}
+
+std::vector<Quat> bases_of(const RotationVectors& vectors, const Skeleton& skeleton) {
+  std::vector<Quat> bases = vectors.means;
+  bases[0] = skeleton.above * skeleton.joints[0].rest;
+  return bases;
+}
+
+Series carried_vectors(const std::vector<Quat>& bases, const Motion& motion, const EncodedRoot& root,
+                       Work& work) {
+  const auto difference = [&](std::size_t joint, Quat q) {
+    return joint == 0 ? q * inverse(bases[0]) : inverse(bases[joint]) * q;
+  };
+  return vectors_of(motion, root, difference, work);
+}
+
+Quat carried_rotation(const std::vector<Quat>& bases, std::size_t joint, Vec3 v) {
+  return joint == 0 ? exp(0.5 * v) * bases[0] : bases[joint] * exp(0.5 * v);
 }
 
 std::vector<bool> chosen_dofs(std::string_view pattern, const Skeleton& skeleton, std::string_view param,

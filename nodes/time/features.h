@@ -32,9 +32,15 @@ struct RotationVectors {
   Series v;
 };
 RotationVectors rotation_vectors(const Motion& motion, const EncodedRoot& root, Work& work);
-// The same about means that are given.
-Series rotation_vectors_about(const std::vector<Quat>& means, const Motion& motion, const EncodedRoot& root,
-                              Work& work);
+
+// The form in which single DOFs are carried to another clock and back. As rotation vectors about `bases`, the
+// means; but the root's is 2 log(ρ ρ_rest⁻¹), whose part about up is 0: so DOFs of different frames put
+// together make no heading.
+std::vector<Quat> bases_of(const RotationVectors& vectors, const Skeleton& skeleton);
+Series carried_vectors(const std::vector<Quat>& bases, const Motion& motion, const EncodedRoot& root,
+                       Work& work);
+Quat carried_rotation(const std::vector<Quat>& bases, std::size_t joint, Vec3 v);
+
 // The time series of a root axis.
 std::vector<double>& root_axis(EncodedRoot& root, int axis);
 const std::vector<double>& root_axis(const EncodedRoot& root, int axis);

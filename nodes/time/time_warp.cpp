@@ -40,18 +40,18 @@ std::vector<typename Values::value_type> gathered(const Values& values, const Wa
   return rows;
 }
 
-// One path for each of all_dofs() of `motion`. `vectors`: null where all are the same path.
-Motion on_rows(const Motion& motion, const EncodedRoot& encoded, const std::vector<const WarpPath*>& paths,
-               const RotationVectors* vectors, Work& work) {
+// One path for each of all_dofs() of `motion`, and `common` for the translations of joints. `bases`: null
+// where all paths are that one.
+Motion on_rows(const Motion& motion, const EncodedRoot& encoded, const WarpPath& common,
+               const std::vector<const WarpPath*>& paths, const std::vector<Quat>* bases, Work& work) {
   const auto joints = static_cast<std::size_t>(motion.joints());
-  const WarpPath& path = *paths[3 * joints];  // of the root's travel
-  const std::size_t rows = path.size();
+  const std::size_t rows = common.size();
   Motion out = motion.translates(0) ? motion.empty_like(rows) : motion.with_translation(0).empty_like(rows);
   out.set_source(facts_on_another_clock(motion));
 
   EncodedRoot root;
   root.fps = encoded.fps;
-  const std::size_t first = path.front();
+  const std::size_t first = common.front();
   root.start = encoded.start;
   root.start_heading = encoded.start_heading;
   if (first > 0) {  // free ends: the first row stands where its frame stood
@@ -64,6 +64,7 @@ Motion on_rows(const Motion& motion, const EncodedRoot& encoded, const std::vect
         gathered(root_axis(encoded, axis), *paths[3 * joints + static_cast<std::size_t>(axis)]);
   root.rho.resize(rows);
 
+  const Series vectors = bases ? carried_vectors(*bases, motion, encoded, work) : Series();
   work.parallel(joints, 1 + 20'000 / rows, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
       work.check();
@@ -72,11 +73,11 @@ Motion on_rows(const Motion& motion, const EncodedRoot& encoded, const std::vect
       const QuatTrack to = out.rotation(joint);
       for (std::size_t r = 0; r < rows; ++r) {
         Quat q;
-        if (vectors) {
+        if (bases) {
           Vec3 v;
           for (std::size_t axis = 0; axis < 3; ++axis)
-            v[static_cast<int>(axis)] = vectors->v.at(3 * j + axis, (*paths[3 * j + axis])[r]);
-          q = vectors->means[j] * exp(0.5 * v);
+            v[static_cast<int>(axis)] = vectors.at(3 * j + axis, (*paths[3 * j + axis])[r]);
+          q = carried_rotation(*bases, j, v);
         } else {
           const std::size_t frame = (*paths[3 * j])[r];
           q = j == 0 ? encoded.rho[frame] : from[frame];
@@ -90,7 +91,7 @@ Motion on_rows(const Motion& motion, const EncodedRoot& encoded, const std::vect
       make_continuous(to.x, to.y, to.z, to.w);
       if (!motion.translates(joint)) continue;
       const ConstVec3Track offset = motion.translation(joint);
-      for (std::size_t r = 0; r < rows; ++r) out.translation(joint).set(r, offset[path[r]]);
+      for (std::size_t r = 0; r < rows; ++r) out.translation(joint).set(r, offset[common[r]]);
     }
   });
   decode_root(root, out);
@@ -220,7 +221,7 @@ TimeWarpResult time_warp(const Motion& source, const Motion& reference, const Ti
   if (per_dof) {
     for (const Dof& dof : found.dofs) warp.dofs.push_back(name_of(dof, source.skeleton()));
     warp.dofs.push_back("*");
-    for (const Quat& mean : source_vectors.means)
+    for (const Quat& mean : bases_of(source_vectors, source.skeleton()))
       warp.means.insert(warp.means.end(), {mean.x, mean.y, mean.z, mean.w});
   }
 
@@ -234,14 +235,14 @@ TimeWarpResult time_warp(const Motion& source, const Motion& reference, const Ti
     const int at = joint < 0 ? 3 * moved.joints() + dof.axis : 3 * joint + dof.axis;
     paths[static_cast<std::size_t>(at)] = &warp.paths[k];
   }
-  const RotationVectors* vectors = !per_dof             ? nullptr
-                                   : warp.source_warped ? &source_vectors
-                                                        : &reference_vectors;
+  std::vector<Quat> bases;
+  if (per_dof) bases = bases_of(warp.source_warped ? source_vectors : reference_vectors, moved.skeleton());
   if (warp.source_warped) {
-    result.warped = on_rows(source, source_root, paths, vectors, work);
+    result.warped = on_rows(source, source_root, warp.paths.back(), paths, per_dof ? &bases : nullptr, work);
     warp.skipped = skipped_frames(source, source_root, *result.warped, warp, work);
   } else {
-    result.reference = on_rows(reference, reference_root, paths, vectors, work);
+    result.reference =
+        on_rows(reference, reference_root, warp.paths.back(), paths, per_dof ? &bases : nullptr, work);
   }
   return result;
 }

@@ -23,7 +23,7 @@ bool is_per_dof(const Warp& warp) {
   return !warp.dofs.empty();
 }
 
-std::vector<Quat> means_of(const Warp& warp) {
+std::vector<Quat> bases_of_warp(const Warp& warp) {
   std::vector<Quat> means(warp.means.size() / 4);
   for (std::size_t j = 0; j < means.size(); ++j) {
     const double* m = &warp.means[4 * j];
@@ -71,7 +71,7 @@ Parts parts_by_frame(const Motion& rows, const Warp& warp, Work& work) {
   }
   parts.root.rho.resize(frames);
 
-  const Series v = is_per_dof(warp) ? rotation_vectors_about(means_of(warp), rows, encoded, work) : Series();
+  const Series v = is_per_dof(warp) ? carried_vectors(bases_of_warp(warp), rows, encoded, work) : Series();
   if (is_per_dof(warp)) parts.v = Series(frames, 3 * joints);
   work.parallel(joints, 1 + 20'000 / frames, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
@@ -133,12 +133,12 @@ void add_skipped(Parts& parts, const Warp& warp) {
 void put_together(Parts& parts, const Warp& warp) {
   const std::size_t frames = parts.motion.frames();
   if (is_per_dof(warp)) {
-    const auto means = means_of(warp);
-    for (std::size_t j = 0; j < means.size(); ++j) {
+    const auto bases = bases_of_warp(warp);
+    for (std::size_t j = 0; j < bases.size(); ++j) {
       const QuatTrack track = parts.motion.rotation(static_cast<int>(j));
       for (std::size_t f = 0; f < frames; ++f) {
         const Vec3 v{parts.v.at(3 * j, f), parts.v.at(3 * j + 1, f), parts.v.at(3 * j + 2, f)};
-        const Quat q = means[j] * exp(0.5 * v);
+        const Quat q = carried_rotation(bases, j, v);
         if (j == 0)
           parts.root.rho[f] = q;
         else
@@ -233,7 +233,7 @@ std::vector<SkippedFrame> skipped_frames(const Motion& source, const EncodedRoot
   const auto joints = static_cast<std::size_t>(source.joints());
   const auto shifting = joints_that_shift(source);
   const auto path_of = path_of_each_dof(warp, source.skeleton());
-  const Series v = is_per_dof(warp) ? rotation_vectors_about(means_of(warp), source, root, work) : Series();
+  const Series v = is_per_dof(warp) ? carried_vectors(bases_of_warp(warp), source, root, work) : Series();
   for (std::size_t f = 0; f < skipped.size(); ++f) {
     if (!skipped[f]) continue;
     // In a per-dof warp a frame may be skipped by some DOFs only.

@@ -30,7 +30,7 @@ class Warp final : public Value {
   // shared.
   std::vector<std::string> dofs;
   std::vector<double>
-      means;  // per-dof: x y z w of each joint of the source, around which v is taken; empty when shared
+      means;  // per-dof: x y z w around which v is taken, of each joint of the source (the root's: its rest)
   std::vector<SkippedFrame> skipped;
   std::vector<double> energy;  // after every half-step, the first value first
   int rounds = 0;
