@@ -16,6 +16,8 @@ NodeType quat_stats_node();
 NodeType check_node();
 NodeType time_warp_node();
 NodeType unwarp_time_node();
+NodeType load_node();
+NodeType export_node();
 
 Registry all_nodes() {
   Registry registry;
@@ -36,6 +38,8 @@ Registry all_nodes() {
   registry.add(check_node());
   registry.add(time_warp_node());
   registry.add(unwarp_time_node());
+  registry.add(load_node());
+  registry.add(export_node());
   registry.add(switch_node());
   registry.add(dot_node());
   return registry;

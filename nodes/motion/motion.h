@@ -29,9 +29,10 @@ struct SourceFacts {
   std::vector<Vec3> bvh_ends;  // End Site OFFSETs as written, in the order of Skeleton::ends
   double frame_time = 0;       // as written; 0 = not a BVH
   std::string frame_time_text;
-  // Channel values as read, frame after frame, in the file's units and degrees: so rotations go back out as
-  // the solution nearest to what was read. Only valid while the motion has `read_frames` frames from
-  // `first_read` on unedited in time.
+  // Channel values as read, a whole series a channel (all joints' channels in order), in the file's units and
+  // degrees: so rotations go back out as what was read, or the solution nearest to it. They are this motion's
+  // frames while it has `read_frames` of them, from entry `first_read` of each series on (read->size() divided
+  // by the number of channels long).
   std::shared_ptr<const std::vector<double>> read;
   std::size_t read_frames = 0;
   std::size_t first_read = 0;

@@ -1,0 +1,130 @@
+#include "nodes/files/formats.h"
+
+#include <algorithm>
+
+#include "nodes/files/acclaim_motion.h"
+#include "nodes/files/analysis_file.h"
+#include "nodes/files/bvh_read.h"
+#include "nodes/files/bvh_write.h"
+#include "nodes/files/text_place.h"
+
+namespace kinegraph {
+
+namespace {
+
+MotionFile with_motion(Motion motion) {
+  MotionFile file;
+  file.contents.push_back({"motion", std::make_shared<const Motion>(std::move(motion))});
+  return file;
+}
+
+MotionFile read_bvh_file(const FileToRead& file, Work& work) {
+  return with_motion(read_bvh(file.bytes, file.options, work));
+}
+
+bool ends_with(std::string_view path, std::string_view ending) {
+  return path.size() > ending.size() && path[path.size() - ending.size() - 1] == '.' &&
+         lower_case(path.substr(path.size() - ending.size())) == ending;
+}
+
+std::string asf_of(const std::string& path, const ReadOptions& options, FileAccess& files) {
+  return options.skeleton.empty() ? find_asf(path, files) : options.skeleton;
+}
+
+MotionFile read_acclaim_file(const FileToRead& file, Work& work) {
+  if (ends_with(file.path, "asf"))
+    return with_motion(acclaim_motion(read_asf(file.bytes, work), {}, file.options, work));
+  const std::string asf_path = asf_of(file.path, file.options, file.files);
+  const FileBytes asf = file.files.read(asf_path);
+  AcclaimSkeleton skeleton;
+  try {
+    skeleton = read_asf(*asf, work);
+  } catch (const Failure& failure) {
+    Diagnostic problem = failure.diagnostic();
+    problem.file = asf_path;
+    throw Failure(problem);
+  }
+  if (file.bytes.empty()) throw Failure(error("bad-frame-number", "the file is empty"));
+  MotionFile result = with_motion(acclaim_motion(skeleton, file.bytes, file.options, work));
+  result.companions.push_back(asf_path);
+  return result;
+}
+
+std::vector<std::string> acclaim_companions(const std::string& path, const ReadOptions& options,
+                                            FileAccess& files) {
+  if (ends_with(path, "asf")) return {};
+  return {asf_of(path, options, files)};
+}
+
+MotionFile read_json_file(const FileToRead& file, Work&) {
+  AnalysisFile analysis = read_analysis(file.bytes);
+  MotionFile result;
+  result.contents.push_back({std::string(analysis.kind->port), analysis.value});
+  return result;
+}
+
+EncodedFile write_bvh_file(const FileToWrite& file, Work& work) {
+  return {write_bvh(dynamic_cast<const Motion&>(*file.contents.front().value), file.options, work), {}};
+}
+
+EncodedFile write_json_file(const FileToWrite& file, Work&) {
+  const FileContent& content = file.contents.front();
+  return {write_analysis(*kind_of_port(content.port), *content.value), {}};
+}
+
+EncodedFile write_csv_file(const FileToWrite& file, Work&) {
+  const FileContent& content = file.contents.front();
+  return {kind_of_port(content.port)->to_csv(*content.value), {}};
+}
+
+std::vector<std::string_view> analysis_ports() {
+  std::vector<std::string_view> ports;
+  for (const AnalysisKind& kind : analysis_kinds()) ports.push_back(kind.port);
+  return ports;
+}
+
+template <class Format>
+std::string format_of(const std::vector<Format>& formats, std::string_view path) {
+  for (const Format& format : formats)
+    for (std::string_view ending : format.endings)
+      if (ends_with(path, ending)) return std::string(format.key);
+  return {};
+}
+
+}  // namespace
+
+const std::vector<ReadFormat>& read_formats() {
+  static const std::vector<ReadFormat> formats = {
+      {"bvh", "Biovision hierarchy", {"bvh"}, read_bvh_file},
+      {"asf-amc", "Acclaim skeleton and motion", {"amc", "asf"}, read_acclaim_file, acclaim_companions},
+      {"gltf", "glTF 2.0, text or binary", {"glb", "gltf"}},
+      {"c3d", "C3D markers", {"c3d"}},
+      {"trc", "TRC markers", {"trc"}},
+      {"csv", "Points as a table", {"csv"}},
+      {"json", "An analysis that Export wrote", {"json"}, read_json_file},
+      {"fbx", "FBX", {"fbx"}},
+  };
+  return formats;
+}
+
+const std::vector<WriteFormat>& write_formats() {
+  static const std::vector<WriteFormat> formats = {
+      {"bvh", "Biovision hierarchy", {"bvh"}, {"motion"}, write_bvh_file},
+      {"glb", "glTF 2.0, one binary file", {"glb"}, {"motion", "character", "points"}},
+      {"gltf", "glTF 2.0, text with its buffers beside it", {"gltf"}, {"motion", "character", "points"}},
+      {"c3d", "C3D markers", {"c3d"}, {"points"}},
+      {"trc", "TRC markers", {"trc"}, {"points"}},
+      {"csv", "A table", {"csv"}, analysis_ports(), write_csv_file},
+      {"json", "An analysis, without loss", {"json"}, analysis_ports(), write_json_file},
+  };
+  return formats;
+}
+
+std::string read_format_of(std::string_view path) {
+  return format_of(read_formats(), path);
+}
+std::string write_format_of(std::string_view path) {
+  return format_of(write_formats(), path);
+}
+
+}  // namespace kinegraph

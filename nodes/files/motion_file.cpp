@@ -1,0 +1,148 @@
+#include "nodes/files/motion_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "nodes/files/formats.h"
+#include "nodes/files/text_place.h"
+#include "nodes/motion/resample.h"
+
+namespace kinegraph {
+
+const Value* MotionFile::find(std::string_view port) const {
+  for (const FileContent& content : contents)
+    if (content.port == port) return content.value.get();
+  return nullptr;
+}
+const Motion* MotionFile::motion() const {
+  return dynamic_cast<const Motion*>(find("motion"));
+}
+const Points* MotionFile::points() const {
+  return dynamic_cast<const Points*>(find("points"));
+}
+std::string MotionFile::ports() const {
+  std::string text;
+  for (const FileContent& content : contents) text += (text.empty() ? "" : " and ") + content.port;
+  return text.empty() ? "nothing" : text;
+}
+
+namespace {
+
+std::string list_of(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (std::string_view word : words) text += fmt::format("{}{}", text.empty() ? "" : ", ", word);
+  return text;
+}
+
+std::string readable() {
+  std::vector<std::string_view> keys;
+  for (const ReadFormat& format : read_formats())
+    if (format.read) keys.push_back(format.key);
+  return "formats that can be read: " + list_of(keys);
+}
+
+std::string writable(const std::vector<FileContent>& contents) {
+  std::vector<std::string_view> keys;
+  for (const WriteFormat& format : write_formats())
+    if (format.write && std::all_of(contents.begin(), contents.end(), [&](const FileContent& content) {
+          return std::find(format.ports.begin(), format.ports.end(), content.port) != format.ports.end();
+        }))
+      keys.push_back(format.key);
+  return keys.empty() ? "no format can hold it" : "formats that can hold it: " + list_of(keys);
+}
+
+// What a file without a telling name is, by how it begins.
+std::string format_of_bytes(std::string_view bytes) {
+  std::string_view head = bytes.substr(0, 4096);
+  if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+  head = trimmed(head);
+  const std::string start = lower_case(head.substr(0, 32));
+  if (start.compare(0, 9, "hierarchy") == 0) return "bvh";
+  if (start.compare(0, 4, "gltf") == 0) return "gltf";
+  if (start.compare(0, 12, "pathfiletype") == 0) return "trc";
+  if (start.compare(0, 18, "kaydara fbx binary") == 0) return "fbx";
+  if (!start.empty() && start[0] == '{')
+    return head.find("\"kinegraph-") == std::string_view::npos &&
+                   head.find("\"asset\"") != std::string_view::npos
+               ? "gltf"
+               : "json";
+  if (head.find(":FULLY-SPECIFIED") != std::string_view::npos ||
+      head.find(":DEGREES") != std::string_view::npos)
+    return "asf-amc";
+  return {};
+}
+
+const ReadFormat* reader_of(const std::string& path, const ReadOptions& options, std::string_view bytes) {
+  std::string key = options.format;
+  if (key == "auto") key = read_format_of(path);
+  if (key.empty()) key = format_of_bytes(bytes);
+  for (const ReadFormat& format : read_formats())
+    if (format.key == key) return &format;
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<std::string> companions_of(const std::string& path, const ReadOptions& options,
+                                       FileAccess& files) {
+  if (path.empty()) return {};
+  // By the name only: content is read, and hashed, once.
+  const ReadFormat* format = reader_of(path, options, {});
+  if (!format || !format->companions) return {};
+  return format->companions(path, options, files);
+}
+
+MotionFile read_motion_file(const std::string& path, const ReadOptions& options, FileAccess& files,
+                            Work& work) {
+  const FileBytes bytes = files.read(path);
+  try {
+    const ReadFormat* format = reader_of(path, options, *bytes);
+    if (!format)
+      throw Failure(error("unknown-format", "neither its name nor its content tells the file's format")
+                        .hinting("set format; " + readable())
+                        .at_param("format"));
+    if (!format->read)
+      throw Failure(error("no-reader", fmt::format("files of the format {} can't be read", format->key))
+                        .hinting(readable())
+                        .at_param("format"));
+    MotionFile file = format->read({path, *bytes, options, files}, work);
+    file.format = format->key;
+    for (FileContent& content : file.contents)
+      if (auto motion = std::dynamic_pointer_cast<const Motion>(content.value); motion && options.fps > 0)
+        content.value = std::make_shared<const Motion>(resampled(*motion, options.fps, work));
+    return file;
+  } catch (const Failure& failure) {
+    Diagnostic problem = failure.diagnostic();
+    if (problem.file.empty()) problem.file = path;
+    throw Failure(problem);
+  }
+}
+
+EncodedFile encode_motion_file(const std::string& path, std::string_view key,
+                               const std::vector<FileContent>& contents, const WriteOptions& options,
+                               Work& work) {
+  const std::string wanted = key == "auto" ? write_format_of(path) : std::string(key);
+  const WriteFormat* format = nullptr;
+  for (const WriteFormat& one : write_formats())
+    if (one.key == wanted) format = &one;
+  if (contents.empty())
+    throw Failure(error("nothing-to-write", "no input is linked").hinting("link what is to be written"));
+  if (!format)
+    throw Failure(error("unknown-format", "the file's ending tells no format")
+                      .hinting("set format or another ending; " + writable(contents))
+                      .at_param("file"));
+  for (const FileContent& content : contents)
+    if (std::find(format->ports.begin(), format->ports.end(), content.port) == format->ports.end())
+      throw Failure(
+          error("wrong-content", fmt::format("the format {} can't hold {}", format->key, content.port))
+              .hinting(writable(contents))
+              .at_port(content.port));
+  if (!format->write)
+    throw Failure(error("no-writer", fmt::format("files of the format {} can't be written", format->key))
+                      .hinting(writable(contents))
+                      .at_param("format"));
+  return format->write({path, contents, options}, work);
+}
+
+}  // namespace kinegraph
