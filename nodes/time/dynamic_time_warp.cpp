@@ -102,10 +102,11 @@ class Codes {
 };
 
 // Frames in tiles of 16, each dimension after dimension; what is past the end repeats 0 and is never reached.
-std::vector<double> in_tiles(const Series& series) {
+std::vector<double> in_tiles(const Series& series, Work& work) {
   const std::size_t tiles = rounded_up(series.frames, warp_tile) / warp_tile;
   std::vector<double> packed(tiles * series.dims * warp_tile);
   for (std::size_t d = 0; d < series.dims; ++d) {
+    work.check();
     const auto values = series.dim(d);
     for (std::size_t f = 0; f < series.frames; ++f)
       packed[(f / warp_tile * series.dims + d) * warp_tile + f % warp_tile] = values[f];
@@ -120,7 +121,7 @@ class Search {
     steps_ = std::max<std::size_t>(1, std::min(limits.max_step, frames_ - 1));
     holds_ = std::max<std::size_t>(2, std::min(limits.max_step, rows_));
     loose_ = limits.free_ends ? std::min(limits.max_step, frames_ - 1) : 0;
-    tiles_ = in_tiles(warped);
+    tiles_ = in_tiles(warped, work);
   }
   Reach everywhere() const { return reach_of(frames_, rows_, steps_, holds_, loose_); }
 

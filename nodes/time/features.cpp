@@ -195,7 +195,7 @@ std::vector<bool> chosen_dofs(std::string_view pattern, const Skeleton& skeleton
 
 Features features_of(const RotationVectors& source, const EncodedRoot& source_root,
                      const RotationVectors& reference, const EncodedRoot& reference_root,
-                     const std::vector<int>& partner, const std::vector<bool>& chosen) {
+                     const std::vector<int>& partner, const std::vector<bool>& chosen, Work& work) {
   struct Pick {
     Dof dof;
     std::span<const double> s, r;
@@ -210,6 +210,7 @@ Features features_of(const RotationVectors& source, const EncodedRoot& source_ro
   };
   for (std::size_t joint = 0; joint < partner.size(); ++joint) {
     if (partner[joint] < 0) continue;
+    work.check();
     const auto other = static_cast<std::size_t>(partner[joint]);
     double squares = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -233,6 +234,7 @@ Features features_of(const RotationVectors& source, const EncodedRoot& source_ro
   features.source = Series(source.v.frames, picks.size());
   features.reference = Series(reference.v.frames, picks.size());
   for (std::size_t d = 0; d < picks.size(); ++d) {
+    work.check();
     const Pick& pick = picks[d];
     features.dofs.push_back(pick.dof);
     for (std::size_t t = 0; t < pick.s.size(); ++t)

@@ -60,6 +60,6 @@ struct Features {
 };
 Features features_of(const RotationVectors& source, const EncodedRoot& source_root,
                      const RotationVectors& reference, const EncodedRoot& reference_root,
-                     const std::vector<int>& partner, const std::vector<bool>& chosen);
+                     const std::vector<int>& partner, const std::vector<bool>& chosen, Work& work);
 
 }  // namespace kinegraph

@@ -79,11 +79,12 @@ class Alternation {
   }
 
   double energy(const MotionWarpResult& result, const WarpPath& path) {
-    work_.check();
     double total = 0;
-    for (std::size_t d = 0; d < warped_.dims; ++d)
+    for (std::size_t d = 0; d < warped_.dims; ++d) {
+      work_.check();
       total +=
           space_warp_energy(warped_.dim(d), clock_.dim(d), path, weights_, result.a.dim(d), result.b.dim(d));
+    }
     return total;
   }
 

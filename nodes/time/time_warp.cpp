@@ -203,7 +203,7 @@ TimeWarpResult time_warp(const Motion& source, const Motion& reference, const Ti
   Paths found;
   {
     const Features features =
-        features_of(source_vectors, source_root, reference_vectors, reference_root, partner, chosen);
+        features_of(source_vectors, source_root, reference_vectors, reference_root, partner, chosen, work);
     if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())
       throw Failure(error("no-features", "the pattern chooses nothing to compare").at_param("features"));
     if (features.dofs.empty())
