@@ -58,7 +58,7 @@ struct ParamType {
   double soft_min = std::numeric_limits<double>::quiet_NaN();  // of the slider; NaN = no slider
   double soft_max = std::numeric_limits<double>::quiet_NaN();
   bool in_key = true;  // false: never changes a result (an Export's file name)
-  // Of a text with a grammar of its own (a Check's rule): throws Failure that says what is wrong with it.
+  // Of a text or pattern with a grammar of its own (a Check's rule): throws Failure that says what is wrong with it.
   void (*check_text)(std::string_view) = nullptr;
 
   // Builders, so that a node's description reads as a list: number(0.5).between(0, 1).in("s").slider(0, 2)

@@ -43,9 +43,9 @@ class Checker {
         if (!value.is_boolean()) wrong_type(type, value, where);
         return;
       case Kind::text:
+      case Kind::pattern:
         if (!value.is_string()) return wrong_type(type, value, where);
         return check_text(type, value, where);
-      case Kind::pattern:
       case Kind::open_file:
       case Kind::save_file:
         if (!value.is_string()) wrong_type(type, value, where);

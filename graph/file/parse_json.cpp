@@ -152,9 +152,22 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool number() {
     to_token();
     const std::string_view token = number_token();
+    // The library takes the 0 of 012, or the 1 of 1-2, for a whole number; nobody meant that.
+    const std::size_t digit = token.starts_with('-') ? 1 : 0;
+    const bool leading_zero =
+        token.size() > digit + 1 && token[digit] == '0' && token[digit + 1] >= '0' && token[digit + 1] <= '9';
     double value = 0;
-    std::from_chars(token.data(), token.data() + token.size(), value);
+    const auto end = std::from_chars(token.data(), token.data() + token.size(), value).ptr;
+    if (leading_zero || end != token.data() + token.size()) {
+      bad_number(token);
+      return false;
+    }
     return scalar(Json::number_as_read(value, std::string(token)), token.size());
+  }
+  void bad_number(std::string_view token) {
+    problem(error("bad-number", fmt::format("{} isn't a number as JSON spells it", token))
+                .hinting("such as 0.5, -3 or 1e-6"),
+            cursor_.place());
   }
   bool scalar(Json value, std::size_t length) {
     to_token();
@@ -242,10 +255,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
       if (message.find("out_of_range") != std::string_view::npos)
         return problem(error("not-finite", fmt::format("{} is too large for a number", token)), place);
       if (message.find("invalid number") != std::string_view::npos || rest.front() == '+' ||
-          rest.front() == '.' || (token.size() > 1 && token.find_first_not_of("0-") != 0))
-        return problem(error("bad-number", fmt::format("{} isn't a number as JSON spells it", token))
-                           .hinting("such as 0.5, -3 or 1e-6"),
-                       place);
+          rest.front() == '.')
+        return bad_number(token);
     }
     const std::size_t detail = message.find("syntax error ");
     std::string_view said = detail == std::string_view::npos ? message : message.substr(detail + 13);
