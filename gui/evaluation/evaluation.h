@@ -1,0 +1,95 @@
+// Evaluates what the editor shows, on other threads at lower priority. The GUI thread only asks and is told.
+#pragma once
+#include <QObject>
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "graph/document.h"
+#include "graph/evaluate/evaluator.h"
+
+namespace kinegraph {
+
+// How a node stands, as its body on the canvas shows it.
+struct NodeStatus {
+  enum class State { idle, waiting, running, done, failed, blocked, cancelled, disabled, missing };
+  State state = State::idle;
+  double progress = 0;  // 0 to 1 while running
+  double seconds = 0;
+  std::string cached;  // "memory", "disk", "no", "" = not known
+  Diagnostics diagnostics;
+};
+
+// What to evaluate: a copy of the graph and what is looked at.
+struct EvaluationRequest {
+  Document document;
+  std::string file, folder;
+  std::vector<Target> targets;
+  bool effects = false;  // the Run button: Exports and Checks as well, into `folder`
+};
+
+class Evaluation : public QObject {
+  Q_OBJECT
+
+ public:
+  // cache_folder "" = no disk cache. The registry outlives this.
+  Evaluation(const Registry& registry, std::string cache_folder, QObject* parent = nullptr);
+  ~Evaluation() override;  // stops what runs, waits for it
+
+  // Replaces what runs and what waits: the old work is told to stop at once. Values that stay the same come
+  // from the cache. A run with effects is not replaced by one without; the latter waits.
+  void request(EvaluationRequest request);
+  void cancel();
+  bool is_busy() const;
+
+  // The newest results; valid in the GUI thread.
+  const NodeStatus* status(const std::string& node) const;
+  ValuePtr value(const std::string& node, const std::string& port) const;  // null: none yet
+
+ signals:
+  void status_changed(const QString& node);
+  void values_changed();  // some value() is new; emitted as nodes finish, at most some 30 times a second
+  void finished(bool with_effects);  // log() is new
+  void busy_changed(bool busy);
+
+ public:
+  const RunLog& log() const { return log_; }
+  const Diagnostics& problems() const { return problems_; }  // of planning
+
+ private:
+  struct Result;
+  void work();  // the worker thread
+  void run(EvaluationRequest request);
+  void deliver(std::shared_ptr<Result> result);
+  void deliver_status(const std::string& node, NodeStatus status, std::uint64_t generation);
+
+  const Registry& registry_;
+  FileStore files_;
+  MemoryCache memory_;
+  std::unique_ptr<DiskCache> disk_;
+  Evaluator evaluator_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::optional<EvaluationRequest> next_;
+  std::optional<EvaluationRequest> next_effects_;
+  std::shared_ptr<StopToken> running_;
+  bool running_effects_ = false, quitting_ = false, busy_ = false;
+  std::uint64_t generation_ = 0;
+
+  // GUI thread only.
+  std::map<std::string, NodeStatus> statuses_;
+  std::map<std::string, ValuePtr> values_;
+  RunLog log_;
+  Diagnostics problems_;
+
+  std::thread thread_;
+};
+
+}  // namespace kinegraph
