@@ -1,0 +1,56 @@
+// One function a command; each returns the program's exit code. They throw UsageError for what is wrong on
+// the command line (exit 2) and Failure for a file given as an argument that is invalid (exit 3).
+#pragma once
+#include <string>
+#include <vector>
+
+#include "headless/session.h"
+
+namespace kinegraph {
+
+int run_command(const Program& program, const RunArguments& arguments);
+// One output in any of Export's formats.
+int get_command(const Program& program, const RunArguments& arguments, const std::string& port,
+                const std::string& file);
+
+struct ValidateArguments {
+  std::vector<std::string> graphs, vars;
+  bool json = false, strict = false, no_files = false;
+};
+int validate_command(const Program& program, const ValidateArguments& arguments);
+
+int fmt_command(const Program& program, const std::vector<std::string>& graphs, bool check);
+int upgrade_command(const Program& program, const std::vector<std::string>& graphs, bool in_place);
+int dot_command(const Program& program, const std::string& graph);
+int explain_command(const Program& program, const RunArguments& arguments, const std::string& node);
+int files_command(const Program& program, const RunArguments& arguments, bool json);
+
+enum class ReferenceForm { text, json, markdown };
+int nodes_command(const Program& program, const std::string& type, ReferenceForm form);
+
+struct PictureArguments {
+  RunArguments run;  // run.graph: a graph, or a file of a motion or an analysis
+  std::vector<std::string>
+      ports;         // of a graph: NODE.PORT, several motions make rows; of a file: an output of Load
+  std::string file;  // .svg or .png
+  std::string title;
+  int moments = 0;
+};
+int picture_command(const Program& program, const PictureArguments& arguments);
+
+struct CompareArguments {
+  std::string a, b;
+  std::vector<std::string> rules;
+  bool json = false;
+};
+int compare_command(const Program& program, const CompareArguments& arguments);
+
+struct CacheArguments {
+  std::string folder, limit;
+};
+int cache_stat_command(const Program& program, const CacheArguments& arguments);
+int cache_gc_command(const Program& program, const CacheArguments& arguments);
+int cache_clear_command(const Program& program, const CacheArguments& arguments);
+int cache_verify_command(const Program& program, const CacheArguments& arguments);
+
+}  // namespace kinegraph

@@ -1,0 +1,22 @@
+// SIGINT and SIGTERM ask the run to stop, so that it can leave everything whole and write its report; a
+// second one ends the program at once.
+#pragma once
+#include "graph/evaluate/evaluator.h"
+
+namespace kinegraph {
+
+// While it lives the signals go to its token. At most one at a time.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+  StopToken* token() { return &token_; }
+  int exit_code() const;  // 130 or 143 after a signal, else 0
+
+ private:
+  StopToken token_;
+};
+
+}  // namespace kinegraph

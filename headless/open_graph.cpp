@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "graph/file/read.h"
+#include "headless/session.h"
+
+namespace kinegraph {
+
+namespace fs = std::filesystem;
+
+std::string absolute_path(const std::string& path) {
+  return fs::absolute(path).lexically_normal().string();
+}
+
+namespace {
+
+// The bytes of a regular file, or an error that says why there are none.
+std::string bytes_of(const std::string& path, Diagnostics& problems) {
+  std::error_code problem;
+  auto status = fs::status(path, problem);
+  if (!fs::exists(status)) {
+    problems.push_back(error("missing-file", fmt::format("'{}' does not exist", path)).in_file(path));
+    return {};
+  }
+  if (!fs::is_regular_file(status)) {
+    problems.push_back(
+        error("not-a-regular-file", fmt::format("'{}' is not a regular file", path)).in_file(path));
+    return {};
+  }
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (!in.is_open() || in.bad())
+    problems.push_back(
+        error("unreadable-file", fmt::format("'{}' can't be read: {}", path, std::strerror(errno)))
+            .in_file(path));
+  return bytes;
+}
+
+}  // namespace
+
+Opened open_graph(const std::string& argument, const Registry& registry, bool migrate) {
+  Opened opened;
+  opened.shown = argument;
+  opened.path = absolute_path(argument);
+  opened.folder = fs::path(opened.path).parent_path().string();
+  std::string text = bytes_of(argument, opened.problems);
+  if (has_error(opened.problems)) return opened;
+  auto read = read_document(text, argument, registry, migrate);
+  opened.document = std::move(read.document);
+  opened.problems = std::move(read.problems);
+  opened.migrated = read.migrated;
+  return opened;
+}
+
+std::map<std::string, Json> parsed_variables(const std::vector<std::string>& vars) {
+  std::map<std::string, Json> variables;
+  for (const auto& text : vars) {
+    auto equals = text.find('=');
+    auto name = text.substr(0, equals);
+    if (equals == std::string::npos || !is_node_name(name))
+      throw UsageError(error("bad-option", fmt::format("--var {} is not NAME=VALUE", text)));
+    variables[name] = Json(text.substr(equals + 1));  // read as the parameter that uses it asks
+  }
+  return variables;
+}
+
+bool is_graph_file(const std::string& path) {
+  if (path.ends_with(".kg.json")) return true;
+  if (!path.ends_with(".json")) return false;
+  Diagnostics problems;
+  Json json = parse_json(bytes_of(path, problems), path, problems);
+  const Json* format = json.find("format");
+  return format && format->is_string() && format->string() == "kinegraph";
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,68 @@
+#include "headless/run_outcome.h"
+
+#include <fmt/format.h>
+
+#include "headless/exit_code.h"
+#include "headless/interruption.h"
+
+namespace kinegraph {
+
+namespace {
+
+// Warnings and errors in the order of the nodes; what is of no node comes last.
+void say_log(const Terminal& terminal, const RunLog& log, const std::string& graph) {
+  for (const auto& [name, node] : log.nodes)
+    for (auto diagnostic : node.diagnostics) {
+      if (diagnostic.node.empty()) diagnostic.node = name;
+      terminal.say(diagnostic);
+    }
+  for (auto diagnostic : log.diagnostics) {
+    if (diagnostic.file.empty() && diagnostic.severity == Severity::error) diagnostic.file = graph;
+    terminal.say(diagnostic);
+  }
+  if (log.timed_out) terminal.message("kinegraph: timed out\n");
+}
+
+}  // namespace
+
+int run_to_outcome(const Program& program, const RunArguments& arguments, Opened opened,
+                   const std::function<std::vector<Target>(Session&)>& targets,
+                   const std::function<int(Session&, const RunLog&)>& after) {
+  using exit_code::graver;
+  Interruption interruption;
+  Progress progress(Progress::form_of(arguments.progress, program.terminal), program.terminal);
+  Session session(program, arguments, std::move(opened));
+  Outcome outcome;
+  outcome.problems = session.problems();
+  program.terminal.say(session.problems());
+  if (!session.valid()) {
+    outcome.exit = exit_code::invalid;
+  } else {
+    auto wanted = targets(session);
+    try {
+      outcome.log = session.run(wanted, progress, interruption.token());
+      say_log(program.terminal, outcome.log, session.opened().shown);
+      outcome.exit = exit_of(outcome.log, arguments.dry_run);
+      if (!arguments.dry_run)
+        for (const auto& target : session.needed_by(wanted).metrics)
+          if (auto value = session.evaluator().value(session.plan(), target.node, target.port))
+            outcome.metrics[target.node] = std::dynamic_pointer_cast<const Metrics>(value);
+      outcome.exit = graver(outcome.exit, after(session, outcome.log));
+    } catch (const UsageError&) {
+      throw;
+    } catch (const std::exception& problem) {  // a report is due even when the program itself is at fault
+      program.terminal.message(fmt::format("kinegraph: internal error: {}\n", problem.what()));
+      outcome.exit = exit_code::internal;
+    }
+  }
+  if (outcome.log.stopped || interruption.exit_code() != 0)
+    outcome.exit = graver(outcome.exit, interruption.exit_code());
+  if (!program.terminal.results_written()) {
+    program.terminal.message("kinegraph: standard output can't be written\n");
+    outcome.exit = graver(outcome.exit, exit_code::cannot_write);
+  }
+  int reports = write_reports(outcome, program, arguments, session.opened(), session.options().out);
+  return graver(outcome.exit, reports);
+}
+
+}  // namespace kinegraph
