@@ -37,9 +37,10 @@ TEST(Reference, TellsAllOfAType) {
 TEST(Dot, DrawsNodesLinksAndFrames) {
   const Registry registry = toys::registry();
   const Document document = toys::document_of(
-      toys::with_nodes(R"("a": {"type": "Load", "note": "x|y"}, "b": {"type": "QuatStats", "enabled": false, "inputs":
+      toys::with_nodes(
+          R"("a": {"type": "Load", "note": "x|y"}, "b": {"type": "QuatStats", "enabled": false, "inputs":
         {"motion": "a.motion"}}, "c": {"type": "Gone", "inputs": {"in": "b.stats"}})",
-                       R"(, "ui": {"frames": {"f": {"title": "F \"1\"", "nodes": ["a"]}}})"),
+          R"(, "ui": {"frames": {"f": {"title": "F \"1\"", "nodes": ["a"]}}})"),
       registry);
   EXPECT_EQ(dot_text(document, registry), R"(digraph kinegraph {
   rankdir=LR;
