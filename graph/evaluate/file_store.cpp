@@ -16,6 +16,8 @@
 #include <optional>
 #include <system_error>
 
+#include "graph/evaluate/real_path.h"
+
 namespace kinegraph {
 
 namespace {
@@ -36,22 +38,11 @@ struct Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 };
 
-std::string resolved(const std::string& path) {
-  std::error_code ignored;
-  auto real = fs::weakly_canonical(path, ignored);
-  return ignored ? fs::path(path).lexically_normal().string() : real.string();
-}
-
 // Where an open file really is, whatever links led to it.
 std::string path_of(int descriptor) {
   std::error_code problem;
   auto path = fs::read_symlink("/proc/self/fd/" + std::to_string(descriptor), problem);
   return problem ? std::string() : path.string();
-}
-
-bool is_below(const std::string& path, const std::string& folder) {
-  if (folder == "/") return true;
-  return path.starts_with(folder) && (path.size() == folder.size() || path[folder.size()] == '/');
 }
 
 std::int64_t nanoseconds(const timespec& time) {
@@ -105,7 +96,7 @@ struct FileStore::State {
       if (is_below(real, root)) return true;
     std::lock_guard lock(mutex);
     for (const auto& path : named)
-      if (is_below(real, resolved(path))) return true;
+      if (is_below(real, real_path(path))) return true;
     return false;
   }
 
@@ -122,7 +113,7 @@ struct FileStore::State {
         error("not-a-regular-file", "'" + shown + "' is " + what).hinting("only regular files are read"));
   }
   [[noreturn]] void unopened(const std::string& path, const std::string& shown, int why) const {
-    const bool visible = allowed(resolved(path));
+    const bool visible = allowed(real_path(path));
     if (!visible) outside(shown);
     if (why == ENOENT || why == ENOTDIR) {
       const auto other = nearest_beside(path);
@@ -139,7 +130,7 @@ struct FileStore::State {
   int open(const std::string& path, const std::string& shown, struct stat& info) const {
     if (path.find('\0') != std::string::npos) unopened(path.c_str(), shown, ENOENT);
     if (::stat(path.c_str(), &info) != 0) unopened(path, shown, errno);
-    if (sandboxed && !allowed(resolved(path))) outside(shown);
+    if (sandboxed && !allowed(real_path(path))) outside(shown);
     if (!S_ISREG(info.st_mode)) irregular(shown, info.st_mode);
     const int opened = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (opened < 0) unopened(path, shown, errno);
@@ -181,7 +172,7 @@ struct FileStore::State {
 FileStore::FileStore(std::vector<std::string> roots, std::vector<std::string> named)
     : state_(std::make_unique<State>()) {
   state_->sandboxed = !roots.empty();
-  for (const auto& root : roots) state_->roots.push_back(resolved(root));
+  for (const auto& root : roots) state_->roots.push_back(real_path(root));
   state_->named = std::move(named);
 }
 FileStore::~FileStore() = default;
@@ -219,7 +210,7 @@ FileStore::Content FileStore::read_hashed(const std::string& path, const Reading
 
 bool FileStore::exists(const std::string& path) {
   struct stat info {};
-  return ::stat(path.c_str(), &info) == 0 && S_ISREG(info.st_mode) && state_->allowed(resolved(path));
+  return ::stat(path.c_str(), &info) == 0 && S_ISREG(info.st_mode) && state_->allowed(real_path(path));
 }
 
 std::vector<std::string> FileStore::list(const std::string& folder) {

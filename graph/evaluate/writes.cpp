@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "graph/evaluate/real_path.h"
+
 namespace kinegraph {
 
 namespace {
@@ -18,18 +20,6 @@ namespace fs = std::filesystem;
 
 std::string normal(const std::string& path) {
   return fs::path(path).lexically_normal().string();
-}
-
-std::string resolved(const std::string& path) {
-  std::error_code problem;
-  auto real = fs::weakly_canonical(path, problem);
-  return problem ? normal(path) : real.lexically_normal().string();
-}
-
-bool is_below(const std::string& path, const std::string& folder) {
-  if (folder.empty()) return false;
-  const std::string start = folder.ends_with('/') ? folder : folder + "/";
-  return path.starts_with(start);
 }
 
 Failure cannot_write(const std::string& path, int why) {
@@ -70,32 +60,32 @@ int open_folder(const std::string& folder, const std::string& path) {
 }  // namespace
 
 WriteRules::WriteRules(const RunOptions& options)
-    : allow_outside_(options.allow_outside), out_(options.out.empty() ? "" : resolved(options.out)) {
+    : allow_outside_(options.allow_outside), out_(options.out.empty() ? "" : real_path(options.out)) {
   for (const auto& path : options.outside_allowed) {
     outside_allowed_.insert(normal(path));
-    outside_allowed_.insert(resolved(path));
+    outside_allowed_.insert(real_path(path));
   }
 }
 
 void WriteRules::reads(const std::string& path) {
   std::lock_guard lock(mutex_);
-  reads_.insert(resolved(path));
+  reads_.insert(real_path(path));
 }
 
 void WriteRules::is_graph(const std::string& path) {
   std::lock_guard lock(mutex_);
-  graphs_.insert(resolved(path));
+  graphs_.insert(real_path(path));
 }
 
 bool WriteRules::inside(const std::string& real, const std::string& path, const std::string& of) const {
   if (allow_outside_ || is_below(real, out_)) return true;
   const bool named = outside_allowed_.contains(normal(of));
   if (path == of) return named;
-  return named && fs::path(real).parent_path() == fs::path(resolved(of)).parent_path();
+  return named && fs::path(real).parent_path() == fs::path(real_path(of)).parent_path();
 }
 
 std::string WriteRules::take(const std::string& node, const std::string& path, const std::string& of) {
-  const std::string real = resolved(path);
+  const std::string real = real_path(path);
   if (!inside(real, path, of)) {
     throw Failure(error("write-outside", "'" + path + "' lies outside the output folder '" + out_ + "'")
                       .hinting("give a path below --out, or allow it with --allow-outside"));
