@@ -46,6 +46,26 @@ Quat rotation_at(const Rotation& rows, double time) {
   return part > 0 ? slerp(part, rows[low], rows[low + 1]) : rows[low];
 }
 
+std::size_t logs_of(const Motion& motion, const Warp& warp) {
+  const auto joints = static_cast<std::size_t>(motion.joints());
+  return 3 * (joints + joints_that_shift(motion).size()) + (is_per_dof(warp) ? 0 : joints);
+}
+
+// How far a joint turns between the shown neighbours of a skipped frame.
+double neighbours_turn(const Motion& motion, const EncodedRoot& root, int joint, const FrameTimes& times,
+                       std::size_t frame) {
+  const std::size_t before = times.before[frame], after = times.after[frame];
+  if (joint == 0) return turn(root.rho[before], root.rho[after]);
+  return turn(motion.rotation(joint)[before], motion.rotation(joint)[after]);
+}
+
+// By how much to enlarge what was missed where an edit has enlarged the motion (StyleTransfer's σr/σs): else
+// skipped frames would stand out from their neighbours. 1 for an unedited motion.
+double gain_of(double turn_now, double turn_then) {
+  constexpr double too_small_to_tell = 1e-5, most = 4;
+  return turn_then > too_small_to_tell ? std::min(turn_now / turn_then, most) : 1;
+}
+
 // Everything but what skipped frames miss.
 Parts parts_by_frame(const Motion& rows, const Warp& warp, Work& work) {
   const std::size_t frames = warp.source_frames;
@@ -102,7 +122,9 @@ Parts parts_by_frame(const Motion& rows, const Warp& warp, Work& work) {
 }
 
 void add_skipped(Parts& parts, const Warp& warp) {
+  if (warp.skipped.empty()) return;
   const auto joints = static_cast<std::size_t>(parts.motion.joints());
+  const FrameTimes times = frame_times(warp.paths.back(), parts.motion.frames());
   const auto shifting = joints_that_shift(parts.motion);
   for (const SkippedFrame& skipped : warp.skipped) {
     const std::size_t f = skipped.frame;
@@ -111,7 +133,11 @@ void add_skipped(Parts& parts, const Warp& warp) {
     parts.root.d_heading[f] += skipped.d_heading;
     parts.root.height[f] += skipped.height;
     for (std::size_t j = 0; j < joints; ++j) {
-      const Vec3 missed{skipped.logs[3 * j], skipped.logs[3 * j + 1], skipped.logs[3 * j + 2]};
+      Vec3 missed{skipped.logs[3 * j], skipped.logs[3 * j + 1], skipped.logs[3 * j + 2]};
+      if (!is_per_dof(warp)) {
+        const double then = skipped.logs[3 * (joints + shifting.size()) + j];
+        missed *= gain_of(neighbours_turn(parts.motion, parts.root, static_cast<int>(j), times, f), then);
+      }
       if (is_per_dof(warp)) {
         for (int axis = 0; axis < 3; ++axis)
           parts.v.dim(3 * j + static_cast<std::size_t>(axis))[f] += missed[axis];
@@ -162,7 +188,7 @@ void check_fits(const Motion& motion, const Warp& warp) {
                       .hinting("give it `warped`, or that motion edited without a change of its timing"));
   if (!warp.source_warped) return;
   const auto joints = static_cast<std::size_t>(motion.joints());
-  const std::size_t logs = 3 * (joints + joints_that_shift(motion).size());
+  const std::size_t logs = logs_of(motion, warp);
   const bool means_fit = !is_per_dof(warp) || warp.means.size() == 4 * joints;
   const bool logs_fit = std::all_of(warp.skipped.begin(), warp.skipped.end(),
                                     [&](const SkippedFrame& frame) { return frame.logs.size() == logs; });
@@ -269,6 +295,8 @@ std::vector<SkippedFrame> skipped_frames(const Motion& source, const EncodedRoot
                               : source.translation(joint)[f] - parts.motion.translation(joint)[f];
       frame.logs.insert(frame.logs.end(), {missed.x, missed.y, missed.z});
     }
+    for (int j = 0; j < source.joints() && !is_per_dof(warp); ++j)
+      frame.logs.push_back(neighbours_turn(source, root, j, times.back(), f));
     all.push_back(std::move(frame));
   }
   return all;

@@ -13,7 +13,8 @@ struct SkippedFrame {
   std::uint32_t frame = 0;
   double d_x = 0, d_z = 0, d_heading = 0, height = 0;  // per second, m
   // Three a joint: log of the rotation that is missing, on the parent's side; per-dof: what v misses, rad.
-  // Then three for each joint other than the root that has a translation track, m.
+  // Then three for each joint other than the root that has a translation track, m. Then, but for per-dof, one
+  // a joint: the turn between the shown neighbours, rad, by which an edit's gain is known.
   std::vector<double> logs;
 };
 

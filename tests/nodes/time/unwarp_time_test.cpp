@@ -81,6 +81,27 @@ TEST(UnwarpTime, CarriesAnEditBackInTheSourcesTiming) {
   }
 }
 
+TEST(UnwarpTime, EnlargesWhatSkippedFramesMissAsTheEditEnlargedTheMotion) {
+  Alone work;
+  const Motion source = source_motion();
+  const TimeWarpResult result = time_warp(source, reference_motion(), {}, work);
+  const auto doubled = [](const Motion& motion) {
+    Motion out = motion;
+    for (int j = 1; j < out.joints(); ++j) {
+      const auto track = out.rotation(j);
+      for (std::size_t f = 0; f < out.frames(); ++f)
+        track.set(f, slerp(2, motion.skeleton().joints[j].rest, track[f]));
+    }
+    return out;
+  };
+  const Motion direct = doubled(source);
+  const double with = difference(unwarp_time(doubled(*result.warped), result.warp, work), direct).turn;
+  Warp none = result.warp;
+  none.skipped.clear();
+  const double without = difference(unwarp_time(doubled(*result.warped), none, work), direct).turn;
+  EXPECT_LT(with, 0.1 * without) << "adding what is missed as it was would leave half of it";
+}
+
 TEST(UnwarpTime, HoldsWhatFreeEndsLeftOff) {
   Alone work;
   Motion walk = turning(gait("walk", 3), 1.0);
