@@ -166,9 +166,9 @@ class Reader {
         fail("bad-hierarchy", fmt::format("the file ends inside {}", out_.names[joint]),
              "the file is cut short");
       if (*at_ == '}') {
-        ++at_;
         if (!has_offset_[joint])
           fail("bad-hierarchy", fmt::format("joint {} has no OFFSET", out_.names[joint]));
+        ++at_;
         joint = out_.parents[joint];
       } else if (take_keyword("offset")) {
         out_.joints[joint].offset = take_offset();

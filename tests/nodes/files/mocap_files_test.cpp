@@ -24,6 +24,10 @@ struct Loads {
   const char* warnings = "";  // codes, in order
 };
 
+void PrintTo(const Loads& one, std::ostream* out) {
+  *out << one.file;
+}
+
 const std::vector<Loads>& files_that_load() {
   static const std::vector<Loads> files = {
 #include "tests/nodes/files/mocap_files.inc"
