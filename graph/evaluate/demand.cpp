@@ -27,10 +27,17 @@ class Reach {
       for (const auto& [port, source] : passed->second) give(source, target.node + "." + port, false);
       return;
     }
+    const auto* type = node(planned->second).type;
+    if (type && type->effect != Effect::none && target.node.find('/') != std::string::npos) {
+      return complain(error("nested-effect", "'" + target.node + "' lies inside a nested file, where " +
+                                                 type->name + " doesn't run")
+                          .at_node(target.node)
+                          .hinting("put it beside the Graph node, or run the nested file itself"));
+    }
     auto& demand = at(planned->second);
     demand.target = true;
     roots_.push_back(planned->second);
-    if (const auto* type = node(planned->second).type)
+    if (type)
       for (const auto& port : type->outputs) demand.wanted.insert(port.name);
   }
 

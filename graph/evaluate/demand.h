@@ -38,7 +38,7 @@ struct Demand {
 struct Demands {
   std::vector<Demand> nodes;                  // as Plan::nodes
   std::vector<int> order;                     // those reached, each after what it depends on
-  Diagnostics problems;                       // of targets: "unknown-target", "absent-output"
+  Diagnostics problems;                       // of targets: "unknown-target", "absent-output", "nested-effect"
   std::map<std::string, ValuePtr> constants;  // targets that a constant stands for: "node.port"
 };
 

@@ -53,6 +53,28 @@ TEST_F(EvaluateWrite, RunsOnlyWhenAskedForAndMakesMissingFolders) {
   EXPECT_TRUE(leftovers().empty());
 }
 
+TEST_F(EvaluateWrite, TwoOfOneKeyBothWrite) {
+  const auto log =
+      run_saves(save("one", R"("file": "one.txt")") + save("two", R"("file": "two.txt")"), {"one", "two"});
+  EXPECT_EQ(log.nodes.at("one").key, log.nodes.at("two").key);
+  EXPECT_EQ(toys::content(folder / "out/one.txt"), five);
+  EXPECT_EQ(toys::content(folder / "out/two.txt"), five);
+  ASSERT_EQ(log.files.size(), 2u);
+  EXPECT_EQ(log.files[1].node, "two") << "in the plan's order";
+}
+
+TEST_F(EvaluateWrite, InsideANestedFileTheyDoNotRun) {
+  auto plan = plan_of(R"("n": {"type": "Count"})" + save("one", R"("file": "one.txt")"));
+  auto nested = plan.nodes[static_cast<std::size_t>(plan.by_name.at("one"))];
+  nested.name = "outer/one";
+  plan.by_name[nested.name] = static_cast<int>(plan.nodes.size());
+  plan.nodes.push_back(nested);
+  const auto log = run(plan, {{"outer/one", ""}});
+  ASSERT_EQ(log.diagnostics.size(), 1u);
+  EXPECT_EQ(log.diagnostics[0].code, "nested-effect");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
 TEST_F(EvaluateWrite, RunsAgainEachTimeWithItsInputsFromTheCache) {
   memory.emplace(1 << 20);
   const auto saves = save("one", R"("file": "one.txt")");
