@@ -62,6 +62,24 @@ TEST_F(Evaluate, RunsAKeyOnceAlsoWhenManyNodesHaveIt) {
   }
 }
 
+TEST_F(Evaluate, ANodeWaitsForOneOfItsKeyThatIsAtWork) {
+  // Holds on for a while, so that the other has every chance to begin as well.
+  registry.add(toys::toy("Slow", trace, [this](Compute& node) {
+                 std::unique_lock lock(trace.mutex);
+                 trace.changed.wait_for(lock, std::chrono::milliseconds(200),
+                                        [&] { return trace.counts["slow"] > 1; });
+                 node.output("numbers", toys::Numbers({1}));
+               }).output("numbers", "Numbers", "one"));
+  options.threads = 4;
+  const auto log = run(R"(
+    "a": {"type": "Slow", "params": {"tag": "slow"}},
+    "b": {"type": "Slow", "params": {"tag": "slow"}},
+    "sum": {"type": "Add", "inputs": {"terms": ["a.numbers", "b.numbers"]}})",
+                       {{"sum", "sum"}});
+  EXPECT_EQ(state(log, "sum"), done);
+  EXPECT_EQ(trace.times("slow"), 1);
+}
+
 TEST_F(Evaluate, OneComputingServesAllOutputsThatAreWanted) {
   const auto plan = plan_of(R"(
     "n": {"type": "Count", "params": {"value": 2.5}},
