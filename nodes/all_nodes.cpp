@@ -14,6 +14,7 @@ namespace kinegraph {
 NodeType gait_node();
 NodeType quat_stats_node();
 NodeType check_node();
+NodeType motion_warp_node();
 NodeType time_warp_node();
 NodeType unwarp_time_node();
 NodeType load_node();
@@ -36,6 +37,7 @@ Registry all_nodes() {
   registry.add(gait_node());
   registry.add(quat_stats_node());
   registry.add(check_node());
+  registry.add(motion_warp_node());
   registry.add(time_warp_node());
   registry.add(unwarp_time_node());
   registry.add(load_node());

@@ -1,0 +1,16 @@
+// The smooth curves of motion warping: through given values at given frames, nowhere a jump in value, slope
+// or curvature.
+#pragma once
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "nodes/motion/rotation.h"
+
+namespace kinegraph {
+
+// Values at frames [0, frames) of the C² cubic spline through `knots` (frame → value, at least one). It is 0
+// at the first and last frame unless they have knots, and level at both.
+std::vector<Vec3> displacement_curve(const std::map<std::size_t, Vec3>& knots, std::size_t frames);
+
+}  // namespace kinegraph
