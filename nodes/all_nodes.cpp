@@ -12,6 +12,8 @@ namespace kinegraph {
 
 // One line a type: the function is defined in NAME_node.cpp of its family's folder.
 NodeType gait_node();
+NodeType detect_contacts_node();
+NodeType footskate_node();
 NodeType quat_stats_node();
 NodeType check_node();
 NodeType motion_warp_node();
@@ -35,6 +37,8 @@ Registry all_nodes() {
       .name = "Contacts", .help = "when which part of a foot is planted", .decode = decode_contacts});
   registry.add(ValueType{.name = "Metrics", .help = "named numbers", .decode = decode_metrics});
   registry.add(gait_node());
+  registry.add(detect_contacts_node());
+  registry.add(footskate_node());
   registry.add(quat_stats_node());
   registry.add(check_node());
   registry.add(motion_warp_node());

@@ -41,9 +41,10 @@ GaitStyle one_foot(GaitStyle style, bool left) {
     return style;
   }
   style.duty -= 0.06 * limp;
-  style.flat_to -= 0.05 * limp;
-  style.landing *= 1 - 0.65 * limp;
-  style.push_off *= 1 - 0.5 * limp;
+  style.flat_to -= 0.03 * limp;
+  style.flat_from *= 1 - 0.45 * limp;
+  style.landing *= 1 - 0.55 * limp;
+  style.push_off *= 1 - 0.3 * limp;
   style.toe_out += 0.15 * limp;
   style.circle += 0.03 * limp;
   return style;

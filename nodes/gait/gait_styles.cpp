@@ -102,10 +102,10 @@ GaitStyle hobble() {
   style.cadence = 1.45;
   style.stride = 0.48;
   style.duty = 0.66;
-  style.flat_from = 0.1;
-  style.flat_to = 0.44;
+  style.flat_from = 0.08;
+  style.flat_to = 0.45;
   style.landing = 0.2;
-  style.push_off = 0.75;
+  style.push_off = 0.9;
   style.lift = 0.0;
   style.step_width = 0.16;
   style.toe_out = 0.16;
@@ -168,9 +168,9 @@ GaitStyle stealthy() {
   style.cadence = 1.5;
   style.stride = 0.6;
   style.duty = 0.64;
-  style.flat_from = 0.12;
+  style.flat_from = 0.11;
   style.flat_to = 0.44;
-  style.landing = 0.08;
+  style.landing = -0.22;
   style.push_off = 0.75;
   style.swing_pitch = -0.3;
   style.lift = 0.1;

@@ -1,0 +1,47 @@
+#include "nodes/feet/ankle_targets.h"
+
+#include "nodes/feet/blending.h"
+
+namespace kinegraph {
+
+AnkleTargets ankle_targets(const FootTrack& foot, const PlantPositions& places, double fps, double blend) {
+  const std::size_t frames = foot.frames();
+  std::vector<Vec3> half_turn(frames);  // logs of the turns
+  std::vector<bool> aimed(frames, false);
+  for (std::size_t t = 0; t < frames; ++t) {
+    if (!foot.heel.planted_at(t) || !foot.ball.planted_at(t)) continue;
+    aimed[t] = true;
+    if (places.steady[t]) continue;
+    half_turn[t] = log(
+        smallest_turn(foot.ball.from_ankle[t] - foot.heel.from_ankle[t], places.ball[t] - places.heel[t]));
+  }
+  fill_smoothly(half_turn, aimed, fps, blend);
+
+  AnkleTargets targets;
+  targets.move.resize(frames);
+  targets.turn.resize(frames);
+  targets.held.resize(frames);
+  for (std::size_t t = 0; t < frames; ++t) {
+    targets.turn[t] = exp(half_turn[t]);
+    const bool heel = foot.heel.planted_at(t), ball = foot.ball.planted_at(t);
+    targets.held[t] = heel || ball;
+    if (places.steady[t]) {
+      targets.turn[t] = {};
+      continue;
+    }
+    const auto needed = [&](const FootTrack::Part& part, Vec3 place) {
+      return place - (foot.ankle[t] + rotate(targets.turn[t], part.from_ankle[t]));
+    };
+    if (heel && ball) {
+      targets.move[t] = 0.5 * (needed(foot.heel, places.heel[t]) + needed(foot.ball, places.ball[t]));
+    } else if (heel) {
+      targets.move[t] = needed(foot.heel, places.heel[t]);
+    } else if (ball) {
+      targets.move[t] = needed(foot.ball, places.ball[t]);
+    }
+  }
+  fill_smoothly(targets.move, targets.held, fps, blend);
+  return targets;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,23 @@
+// Step 2 of footskate cleanup [Kovar §3.2]: ankle position and orientation that put the planted points on
+// their places.
+#pragma once
+#include <vector>
+
+#include "nodes/feet/foot_track.h"
+#include "nodes/feet/plant_positions.h"
+
+namespace kinegraph {
+
+// What is added to one foot, frame by frame.
+struct AnkleTargets {
+  std::vector<Vec3> move;  // of the ankle, world, m
+  std::vector<Quat> turn;  // world, before the ankle's own orientation
+  std::vector<bool> held;  // heel or ball is planted: `move` is what the plant needs
+};
+
+// Heel and ball planted: the foot turns so that both points aim along their places. One planted: the turn is
+// blended from the nearest such frames, and the ankle moves so that the one point is met. Else both are
+// blended over `blend` seconds.
+AnkleTargets ankle_targets(const FootTrack& foot, const PlantPositions& places, double fps, double blend);
+
+}  // namespace kinegraph

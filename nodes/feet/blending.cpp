@@ -1,0 +1,54 @@
+#include "nodes/feet/blending.h"
+
+#include <algorithm>
+
+#include "nodes/feet/banded_system.h"
+#include "nodes/motion/contacts.h"
+
+namespace kinegraph {
+namespace {
+
+// Frames [start, end) are unknown; two known ones on each side, where there are any, hold the ends.
+void fill_gap(std::vector<Vec3>& change, Run gap, double stiffness) {
+  const std::size_t size = gap.end - gap.start;
+  BandedSystem system(size, 2);
+  std::vector<double> right[3];
+  for (auto& axis : right) axis.assign(size, 0.0);
+  for (std::size_t i = 0; i < size; ++i) system.add(i, i, stiffness);
+  static constexpr double difference[3] = {1, -2, 1};
+  const std::size_t first = gap.start < 2 ? 0 : gap.start - 2;
+  for (std::size_t t = first; t + 2 < change.size() && t < gap.end; ++t) {
+    for (int a = 0; a < 3; ++a) {
+      const std::size_t row = t + a;
+      if (row < gap.start || row >= gap.end) continue;
+      for (int b = 0; b < 3; ++b) {
+        const std::size_t column = t + b;
+        const double weight = difference[a] * difference[b];
+        if (column >= gap.start && column < gap.end) {
+          system.add(row - gap.start, column - gap.start, weight);
+        } else {
+          for (int axis = 0; axis < 3; ++axis) right[axis][row - gap.start] -= weight * change[column][axis];
+        }
+      }
+    }
+  }
+  system.factor();
+  for (int axis = 0; axis < 3; ++axis) {
+    system.solve(right[axis]);
+    for (std::size_t i = 0; i < size; ++i) change[gap.start + i][axis] = right[axis][i];
+  }
+}
+
+}  // namespace
+
+void fill_smoothly(std::vector<Vec3>& change, const std::vector<bool>& known, double fps, double blend) {
+  const double rate = 2 / std::max(blend * fps, 1.0);
+  std::vector<bool> unknown = known;
+  unknown.flip();
+  for (const Run& gap : runs_of(unknown)) {
+    for (std::size_t t = gap.start; t < gap.end; ++t) change[t] = {};
+    fill_gap(change, gap, rate * rate * rate * rate);
+  }
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,14 @@
+// Changes that are known in some frames, carried smoothly through the others.
+#pragma once
+#include <vector>
+
+#include "nodes/motion/rotation.h"
+
+namespace kinegraph {
+
+// Fills the frames that aren't known: least Σ ‖second difference‖² + (2 / blend)⁴ ‖change‖² (per second), so
+// that the change leaves the known frames with their value and speed and dies away within about `blend`
+// seconds. No frame known: zero.
+void fill_smoothly(std::vector<Vec3>& change, const std::vector<bool>& known, double fps, double blend);
+
+}  // namespace kinegraph

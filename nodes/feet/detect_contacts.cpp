@@ -1,0 +1,83 @@
+#include "nodes/feet/detect_contacts.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "graph/diagnostic.h"
+#include "nodes/feet/foot_points.h"
+#include "nodes/motion/kinematics.h"
+#include "nodes/node_params.h"
+
+namespace kinegraph {
+namespace {
+
+// The lowest that the feet usually are: the 10th percentile over time of the lowest foot point, toe tips
+// included.
+double floor_under(const Skeleton& skeleton, const WorldMotion& world, const std::vector<FootPoint>& points) {
+  std::vector<double> lowest(world.frames());
+  std::vector<FootPoint> all = points;
+  for (const Leg& leg : find_legs(skeleton)) {
+    if (!leg.toe_tip) continue;
+    FootPoint tip;
+    tip.joint = leg.toe >= 0 ? leg.toe : leg.ankle;
+    tip.local = *leg.toe_tip;
+    all.push_back(std::move(tip));
+  }
+  for (std::size_t t = 0; t < lowest.size(); ++t) {
+    lowest[t] = point_at(world, all[0].joint, all[0].local, t).y;
+    for (const FootPoint& point : all)
+      lowest[t] = std::min(lowest[t], point_at(world, point.joint, point.local, t).y);
+  }
+  if (lowest.empty()) return 0;
+  const auto at = lowest.begin() + static_cast<std::ptrdiff_t>(lowest.size() / 10);
+  std::nth_element(lowest.begin(), at, lowest.end());
+  return *at;
+}
+
+bool means(const ContactEdit& edit, const FootPoint& point) {
+  const bool foot = edit.foot == point.foot || edit.foot == (point.left ? "left" : "right");
+  return foot && (edit.part == "both" || edit.part == point.part);
+}
+
+void apply_edits(const std::vector<ContactEdit>& edits, Contacts& contacts) {
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    const ContactEdit& edit = edits[i];
+    const std::string where = fmt::format("edits[{}]", i);
+    const Frames range = checked_range(edit.range, contacts.frames, where + ".range");
+    bool any = false;
+    std::string feet;
+    for (FootPoint& point : contacts.points) {
+      if (feet.find(point.foot) == feet.npos) feet += (feet.empty() ? "" : ", ") + point.foot;
+      if (!means(edit, point)) continue;
+      any = true;
+      for (std::size_t t = range.start; t < range.end; ++t) point.planted[t] = edit.planted;
+    }
+    if (!any) {
+      throw Failure(error("unknown-foot", fmt::format("no {} of a foot \"{}\"", edit.part, edit.foot))
+                        .at_param(where + ".foot")
+                        .hinting("left, right or an ankle: " + feet));
+    }
+  }
+}
+
+}  // namespace
+
+Contacts detect_contacts(const Motion& motion, const DetectContactsParams& params, Work& work) {
+  Contacts contacts;
+  contacts.fps = motion.fps();
+  contacts.frames = motion.frames();
+  contacts.points = foot_points(motion.skeleton(), params.heels, params.balls, work);
+  const WorldMotion world = world_motion(motion, work);
+  contacts.floor = floor_under(motion.skeleton(), world, contacts.points);
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    work.check();
+    FootPoint& point = contacts.points[i];
+    point.planted = planted_frames(path_of(point, world), motion.fps(), params);
+    work.progress(static_cast<double>(i + 1) / static_cast<double>(contacts.points.size()));
+  }
+  apply_edits(params.edits, contacts);
+  return contacts;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,136 @@
+// One point's plants, from its path alone.
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/feet/detect_contacts.h"
+
+namespace kinegraph {
+namespace {
+
+// A plant may slide this fast as a whole; drift of 0.15 m/s on top of what real feet do in stance.
+constexpr double largest_slide = 0.33;  // m/s
+// A plant has frames whose speed is under this part of the limit.
+constexpr double core = 0.7;
+
+double horizontal(Vec3 v) {
+  return std::sqrt(v.x * v.x + v.z * v.z);
+}
+
+double quantile(std::vector<double> values, double part) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+double median(std::vector<double> values) {
+  return quantile(std::move(values), 0.5);
+}
+
+std::vector<Vec3> velocities(const std::vector<Vec3>& path, double fps) {
+  const std::size_t side = std::max<std::size_t>(1, static_cast<std::size_t>(fps / 30 + 0.5));
+  std::vector<Vec3> result(path.size());
+  for (std::size_t t = 0; t < path.size(); ++t) {
+    const std::size_t a = t < side ? 0 : t - side, b = std::min(path.size() - 1, t + side);
+    if (b > a) result[t] = (path[b] - path[a]) * (fps / static_cast<double>(b - a));
+  }
+  return result;
+}
+
+Vec3 median_slide(const std::vector<Vec3>& velocity, Run run) {
+  std::vector<double> x, z;
+  for (std::size_t t = run.start; t < run.end; ++t) {
+    x.push_back(velocity[t].x);
+    z.push_back(velocity[t].z);
+  }
+  return {median(std::move(x)), 0, median(std::move(z))};
+}
+
+// The velocity where it changes least: the same for every drift.
+Vec3 steadiest_slide(const std::vector<Vec3>& velocity, Run run, double fps) {
+  const std::size_t side = std::max<std::size_t>(1, static_cast<std::size_t>(0.03 * fps + 0.5));
+  Vec3 best{2 * largest_slide, 0, 0};
+  double least = -1;
+  for (std::size_t t = run.start + side; t + side < run.end; ++t) {
+    double change = 0;
+    for (std::size_t k = t - side; k < t + side; ++k) change += norm(velocity[k + 1] - velocity[k]);
+    if (least >= 0 && change >= least) continue;
+    least = change;
+    best = {velocity[t].x, 0, velocity[t].z};
+  }
+  return best;
+}
+
+// Marks the stretches of a run that move with `slide`.
+void mark_even(const std::vector<Vec3>& velocity, Run run, Vec3 slide, double speed,
+               std::vector<bool>& planted) {
+  if (norm(slide) > largest_slide) return;
+  for (std::size_t t = run.start; t < run.end; ++t) {
+    std::size_t end = t;
+    bool sure = false;
+    for (; end < run.end && norm(velocity[end] - slide) < speed; ++end)
+      sure |= norm(velocity[end] - slide) < core * speed;
+    for (std::size_t k = t; sure && k < end; ++k) planted[k] = true;
+    t = std::max(t, end);
+  }
+}
+
+// A plant ends where its point leaves the straight slide by more than its own wobble: so a foot that rolls
+// off a plant in which it stood perfectly still is let go at once, while a noisy one keeps all its frames.
+void trim_ends(const std::vector<Vec3>& path, const std::vector<Vec3>& velocity, Run run,
+               std::vector<bool>& planted) {
+  const Vec3 slide = median_slide(velocity, run);
+  // Path at rest in the plant's own frame: x, y, z, each about its median.
+  std::vector<Vec3> still;
+  for (std::size_t t = run.start; t < run.end; ++t)
+    still.push_back(path[t] - (static_cast<double>(t - run.start)) * slide);
+  Vec3 home;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const Vec3& p : still) values.push_back(p[axis]);
+    home[axis] = median(std::move(values));
+  }
+  std::vector<double> away;
+  for (const Vec3& p : still) away.push_back(norm(p - home));
+  const double limit = std::max(0.0006, 8 * quantile(away, 0.35));
+  for (std::size_t k = 0; k < away.size() && away[k] > limit; ++k) planted[run.start + k] = false;
+  for (std::size_t k = away.size(); k > 0 && away[k - 1] > limit; --k) planted[run.start + k - 1] = false;
+}
+
+}  // namespace
+
+std::vector<bool> planted_frames(const std::vector<Vec3>& path, double fps,
+                                 const DetectContactsParams& params) {
+  std::vector<bool> planted(path.size(), false);
+  if (path.size() < 2) return planted;
+  const std::vector<Vec3> velocity = velocities(path, fps);
+  std::vector<double> heights;
+  for (const Vec3& p : path) heights.push_back(p.y);
+  const double ceiling = quantile(heights, 0.1) + params.height;
+
+  std::vector<bool> maybe(path.size());
+  for (std::size_t t = 0; t < path.size(); ++t) {
+    maybe[t] = path[t].y < ceiling && std::abs(velocity[t].y) < 0.96 * params.speed &&
+               horizontal(velocity[t]) < params.speed + 0.22;
+  }
+  for (const Run& run : runs_of(maybe)) {
+    for (Vec3 slide : {Vec3{}, median_slide(velocity, run), steadiest_slide(velocity, run, fps)})
+      mark_even(velocity, run, slide, params.speed, planted);
+  }
+  const auto gap = static_cast<std::size_t>(0.04 * fps + 0.5);
+  std::vector<bool> open = planted;
+  open.flip();
+  for (const Run& run : runs_of(open))
+    for (std::size_t t = run.start;
+         run.start > 0 && run.end < path.size() && run.end - run.start <= gap && t < run.end; ++t)
+      planted[t] = true;
+  std::vector<Vec3> per_frame(path.size());
+  for (std::size_t t = 1; t + 1 < path.size(); ++t) per_frame[t] = (path[t + 1] - path[t - 1]) / 2;
+  per_frame.front() = path[1] - path[0];
+  per_frame.back() = path.back() - path[path.size() - 2];
+  for (const Run& run : runs_of(planted)) trim_ends(path, per_frame, run, planted);
+  const auto least = static_cast<std::size_t>(params.min_time * fps + 0.5);
+  for (const Run& run : runs_of(planted))
+    for (std::size_t t = run.start; run.end - run.start < least && t < run.end; ++t) planted[t] = false;
+  return planted;
+}
+
+}  // namespace kinegraph

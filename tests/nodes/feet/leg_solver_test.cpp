@@ -1,0 +1,85 @@
+#include "nodes/feet/leg_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "nodes/feet/blending.h"
+
+namespace kinegraph {
+namespace {
+
+const Vec3 hip{0, 0.9, 0}, ankle{0, 0.1, 0.1};
+Vec3 knee_bent_by(double ahead) {
+  return {0, 0.5, 0.05 + ahead};
+}
+
+Vec3 reached(Vec3 knee, Vec3 new_hip, const LegChange& change) {
+  return new_hip + change.stretch * (rotate(change.thigh, knee - hip) + rotate(change.shank, ankle - knee));
+}
+double knee_angle(Vec3 thigh, Vec3 shank) {
+  return std::acos(dot(thigh, shank) / norm(thigh) / norm(shank));
+}
+
+TEST(LegSolver, PutsTheAnkleOnItsPlace) {
+  for (double ahead : {0.001, 0.05, 0.2}) {
+    const Vec3 knee = knee_bent_by(ahead), new_hip = hip + Vec3{0.01, -0.01, 0.02},
+               place = ankle + Vec3{0.02, 0.01, -0.03};
+    const LegChange change = solve_leg(hip, knee, ankle, new_hip, place, 0.2, 1.0);
+    EXPECT_NEAR(norm(reached(knee, new_hip, change) - place), 0, 1e-9) << ahead;
+    EXPECT_EQ(change.residual, 0);
+  }
+}
+
+TEST(LegSolver, KeepsAStraightKneesAngleAndBendsABentOne) {
+  const Vec3 place = ankle + Vec3{0, 0.01, 0};
+  for (auto [ahead, bends] : {std::pair{0.05, false}, std::pair{0.5, true}}) {
+    const Vec3 knee = knee_bent_by(ahead);
+    const LegChange change = solve_leg(hip, knee, ankle, hip, place, 0.2, 1.5);
+    const double before = knee_angle(knee - hip, ankle - knee);
+    const double after = knee_angle(rotate(change.thigh, knee - hip), rotate(change.shank, ankle - knee));
+    EXPECT_EQ(std::abs(after - before) > 0.003, bends) << ahead;
+    EXPECT_EQ(std::abs(change.stretch - 1) > 0.003, !bends) << ahead;
+  }
+}
+
+TEST(LegSolver, TellsWhatStretchDoesNotAllow) {
+  const LegChange change =
+      solve_leg(hip, knee_bent_by(0.03), ankle, hip, ankle + Vec3{0, -0.1, 0}, 0.01, 1.5);
+  EXPECT_DOUBLE_EQ(change.stretch, 1.01);
+  EXPECT_GT(change.residual, 0.05);
+}
+
+TEST(LegSolver, ChangesNothingWhereNothingMoves) {
+  const LegChange change = solve_leg(hip, knee_bent_by(0.1), ankle, hip, ankle, 0.05, 1.5);
+  EXPECT_NEAR(turn(change.thigh), 0, 1e-7);
+  EXPECT_NEAR(turn(change.shank), 0, 1e-7);
+  EXPECT_NEAR(change.stretch, 1, 1e-12);
+}
+
+TEST(Blending, LeavesKnownFramesAndDiesAway) {
+  std::vector<Vec3> change(400);
+  std::vector<bool> known(400, false);
+  for (std::size_t t = 180; t < 220; ++t) {
+    known[t] = true;
+    change[t] = {0.05, 0, 0.001 * (static_cast<double>(t) - 200)};
+  }
+  fill_smoothly(change, known, 120, 0.3);
+  for (std::size_t t = 180; t < 220; ++t) EXPECT_EQ(change[t].x, 0.05);
+  EXPECT_LT(norm(change[0]), 0.001);
+  EXPECT_LT(norm(change[399]), 0.001);
+  for (std::size_t t = 1; t + 1 < 400; ++t) {
+    const Vec3 bend = change[t - 1] - 2 * change[t] + change[t + 1];
+    EXPECT_LT(norm(bend) * 120 * 120, 8) << "no kick where it begins, at " << t;
+  }
+}
+
+TEST(Blending, KeepsZeroWhereNothingIsKnown) {
+  std::vector<Vec3> change(10, Vec3{1, 1, 1});
+  fill_smoothly(change, std::vector<bool>(10, false), 120, 0.3);
+  for (const Vec3& c : change) EXPECT_EQ(norm(c), 0);
+}
+
+}  // namespace
+}  // namespace kinegraph
