@@ -10,7 +10,7 @@ namespace {
 // A plant may slide this fast as a whole; drift of 0.15 m/s on top of what real feet do in stance.
 constexpr double largest_slide = 0.33;  // m/s
 // A plant has frames whose speed is under this part of the limit.
-constexpr double core = 0.7;
+constexpr double core = 0.6;
 
 double horizontal(Vec3 v) {
   return std::sqrt(v.x * v.x + v.z * v.z);
@@ -44,19 +44,24 @@ Vec3 median_slide(const std::vector<Vec3>& velocity, Run run) {
   return {median(std::move(x)), 0, median(std::move(z))};
 }
 
-// The velocity where it changes least: the same for every drift.
-Vec3 steadiest_slide(const std::vector<Vec3>& velocity, Run run, double fps) {
+// Frames where the velocity changes least, one in a tenth of a second at most: the same for every drift.
+std::vector<std::size_t> steady_frames(const std::vector<Vec3>& velocity, Run run, double fps) {
   const std::size_t side = std::max<std::size_t>(1, static_cast<std::size_t>(0.03 * fps + 0.5));
-  Vec3 best{2 * largest_slide, 0, 0};
-  double least = -1;
+  const std::size_t apart = std::max<std::size_t>(1, static_cast<std::size_t>(0.1 * fps + 0.5));
+  std::vector<double> change;  // at run.start + side + k
   for (std::size_t t = run.start + side; t + side < run.end; ++t) {
-    double change = 0;
-    for (std::size_t k = t - side; k < t + side; ++k) change += norm(velocity[k + 1] - velocity[k]);
-    if (least >= 0 && change >= least) continue;
-    least = change;
-    best = {velocity[t].x, 0, velocity[t].z};
+    double sum = 0;
+    for (std::size_t k = t - side; k < t + side; ++k) sum += norm(velocity[k + 1] - velocity[k]);
+    change.push_back(sum);
   }
-  return best;
+  std::vector<std::size_t> frames;
+  for (std::size_t k = 0; k < change.size(); ++k) {
+    const auto from = change.begin() + static_cast<std::ptrdiff_t>(k < apart ? 0 : k - apart);
+    const auto to = change.begin() + static_cast<std::ptrdiff_t>(std::min(change.size(), k + apart + 1));
+    if (std::min_element(from, to) - change.begin() != static_cast<std::ptrdiff_t>(k)) continue;
+    frames.push_back(run.start + side + k);
+  }
+  return frames;
 }
 
 // Marks the stretches of a run that move with `slide`.
@@ -112,8 +117,10 @@ std::vector<bool> planted_frames(const std::vector<Vec3>& path, double fps,
                horizontal(velocity[t]) < params.speed + 0.22;
   }
   for (const Run& run : runs_of(maybe)) {
-    for (Vec3 slide : {Vec3{}, median_slide(velocity, run), steadiest_slide(velocity, run, fps)})
-      mark_even(velocity, run, slide, params.speed, planted);
+    mark_even(velocity, run, {}, params.speed, planted);
+    mark_even(velocity, run, median_slide(velocity, run), params.speed, planted);
+    for (std::size_t t : steady_frames(velocity, run, fps))
+      if (!planted[t]) mark_even(velocity, run, {velocity[t].x, 0, velocity[t].z}, params.speed, planted);
   }
   const auto gap = static_cast<std::size_t>(0.04 * fps + 0.5);
   std::vector<bool> open = planted;

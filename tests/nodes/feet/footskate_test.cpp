@@ -122,7 +122,7 @@ TEST(Footskate, DefaultStretchIsEnoughForEveryCmuWalkThatDrifts) {
     const Motion walk = clip(name);
     for (double along : {-0.1, 0.1}) {
       const Motion motion = drifted(walk, along, 0);
-      EXPECT_EQ(cleaned(motion, contacts_of(motion)).largest_residual, 0) << name << ' ' << along;
+      EXPECT_LT(cleaned(motion, contacts_of(motion)).largest_residual, 1e-9) << name << ' ' << along;
     }
   }
 }
