@@ -45,6 +45,21 @@ struct CompareArguments {
 };
 int compare_command(const Program& program, const CompareArguments& arguments);
 
+// What a person wants to know of a motion file before using it.
+struct InfoArguments {
+  std::string file;
+  bool json = false;
+};
+int info_command(const Program& program, const InfoArguments& arguments);
+
+// One file format to another, by the endings.
+struct ConvertArguments {
+  std::string in, out;
+  double fps = 0;              // 0 = as it is
+  std::string unit, out_unit;  // as Load's and Export's; "" = their defaults
+};
+int convert_command(const Program& program, const ConvertArguments& arguments);
+
 struct CacheArguments {
   std::string folder, limit;
 };

@@ -183,6 +183,30 @@ int chosen(const Program& program, int argc, char** argv) {
         ->allow_extra_args(false);
     command.callback([&] { act = [&] { return compare_command(program, comparison); }; });
   }
+  InfoArguments about;
+  {
+    auto& command =
+        *app.add_subcommand("info", "What a motion file holds: skeleton, frames, rate, unit, oddities");
+    command.add_option("FILE", about.file, "The file")->required()->type_name("");
+    command.add_flag("--json", about.json, "As JSON");
+    command.callback([&] { act = [&] { return info_command(program, about); }; });
+  }
+  ConvertArguments conversion;
+  {
+    auto& command = *app.add_subcommand("convert", "A motion file in another format, rate or unit");
+    command.add_option("IN", conversion.in, "The file to read")->required()->type_name("");
+    command.add_option("OUT", conversion.out, "The file to write; its ending tells the format")
+        ->required()
+        ->type_name("");
+    command.add_option("--fps", conversion.fps, "Resample to so many frames a second")
+        ->type_name("N")
+        ->check(CLI::Range(0.001, 100000.0));
+    command.add_option("--unit", conversion.unit, "The unit that IN is in: m, cm, mm, in, cmu, or metres")
+        ->type_name("U");
+    command.add_option("--out-unit", conversion.out_unit, "The unit for OUT; the source's without it")
+        ->type_name("U");
+    command.callback([&] { act = [&] { return convert_command(program, conversion); }; });
+  }
   CacheArguments cache;
   {
     auto& command = *app.add_subcommand("cache", "Look after a cache folder");

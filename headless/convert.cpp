@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "graph/evaluate/file_store.h"
+#include "graph/file/write.h"
+#include "headless/commands.h"
+#include "headless/exit_code.h"
+#include "nodes/files/motion_file.h"
+
+namespace kinegraph {
+
+namespace {
+
+// As a node's parameter of that name would take it.
+Json unit_param(const Program& program, const char* type, const std::string& text, const char* option) {
+  const Param& param = *program.registry.find(type)->find_param("unit");
+  if (text.empty()) return *param.fallback;
+  try {
+    Json value = parse_value(param, text);
+    for (const Diagnostic& problem : check(param, value, option))
+      if (problem.severity == Severity::error) throw Failure(problem);
+    return value;
+  } catch (const Failure& failure) {
+    throw UsageError(failure.diagnostic());
+  }
+}
+
+}  // namespace
+
+int convert_command(const Program& program, const ConvertArguments& arguments) {
+  namespace fs = std::filesystem;
+  FileStore files;
+  Alone work;
+  ReadOptions read;
+  read.fps = arguments.fps;
+  read.unit = unit_param(program, "Load", arguments.unit, "--unit");
+  WriteOptions write;
+  write.unit = unit_param(program, "Export", arguments.out_unit, "--out-unit");
+  const std::string in = absolute_path(arguments.in), out = absolute_path(arguments.out);
+  EncodedFile encoded;
+  try {
+    const MotionFile file = read_motion_file(in, read, files, work);
+    encoded = encode_motion_file(out, "auto", file.contents, write, work);
+  } catch (const Failure& failure) {
+    Diagnostic problem = failure.diagnostic();
+    if (problem.file == in) problem.file = arguments.in;
+    throw Failure(problem);
+  }
+  for (Diagnostic one : work.reported) {
+    if (one.file.empty()) one.file = arguments.in;
+    program.terminal.say(one);
+  }
+  try {
+    const fs::path folder = fs::path(out).parent_path();
+    std::error_code ignored;  // writing tells what is wrong with the folder
+    fs::create_directories(folder, ignored);
+    for (const auto& [name, bytes] : encoded.companions)
+      write_file_atomically((folder / name).string(), bytes);
+    write_file_atomically(out, encoded.bytes);
+  } catch (const Failure& failure) {
+    program.terminal.say(failure.diagnostic());
+    return exit_code::cannot_write;
+  }
+  program.terminal.message(fmt::format("wrote {} ({})\n", arguments.out, size_text(encoded.bytes.size())));
+  return exit_code::done;
+}
+
+}  // namespace kinegraph

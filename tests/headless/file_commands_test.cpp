@@ -1,0 +1,88 @@
+// `kinegraph info` and `kinegraph convert`, as a script runs them.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/nodes/files/bvh_texts.h"
+
+namespace kinegraph {
+namespace {
+
+class FileCommands : public testing::Test {
+ protected:
+  FileCommands() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "kinegraph-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+    std::ofstream(folder_ + "/clip.bvh") << small_bvh(two_frames());
+    std::ofstream(folder_ + "/broken.bvh")
+        << small_bvh("Frames: 1\nFrame Time: 0.04\n1 2 x 10 20 30 -5 6 7\n");
+  }
+  ~FileCommands() override { std::filesystem::remove_all(folder_); }
+
+  struct Ran {
+    int exit;
+    std::string output;
+  };
+  // `streams`: "2>&1" for both, "2>/dev/null" for the results alone.
+  Ran run(const std::string& arguments, const std::string& streams) {
+    const std::string command =
+        "cd " + folder_ + " && " KINEGRAPH_BIN_DIR "/kinegraph " + arguments + " " + streams;
+    FILE* pipe = popen(command.c_str(), "r");
+    std::string output;
+    for (int c; (c = std::fgetc(pipe)) != EOF;) output += static_cast<char>(c);
+    const int status = pclose(pipe);
+    return {WEXITSTATUS(status), output};
+  }
+  std::string bytes_of(const std::string& name) {
+    std::ifstream in(folder_ + "/" + name, std::ios::binary);
+    std::stringstream bytes;
+    bytes << in.rdbuf();
+    return bytes.str();
+  }
+  std::string folder_;
+};
+
+TEST_F(FileCommands, InfoTellsWhatAFileHolds) {
+  const Ran text = run("info clip.bvh", "2>/dev/null");
+  EXPECT_EQ(text.exit, 0);
+  for (const char* part : {"2 at 25 a second", "2 joints, 1 End Sites", "\n  Leg ", "unit-found"})
+    EXPECT_NE(text.output.find(part), std::string::npos) << text.output;
+  const Ran json = run("info clip.bvh --json", "2>/dev/null");
+  EXPECT_EQ(json.exit, 0);
+  const auto facts = nlohmann::json::parse(json.output);
+  EXPECT_EQ(facts["frames"], 2);
+  EXPECT_EQ(facts["fps"], 25);
+  EXPECT_EQ(facts["joints"][1]["name"], "Leg");
+  EXPECT_EQ(facts["joints"][1]["channels"][0], "Zrotation");
+}
+
+TEST_F(FileCommands, InfoPointsIntoABrokenFile) {
+  const Ran broken = run("info broken.bvh", "2>&1");
+  EXPECT_EQ(broken.exit, 3);
+  EXPECT_NE(broken.output.find("broken.bvh:19:5: error: bad-number"), std::string::npos) << broken.output;
+  EXPECT_EQ(run("info nothing.bvh", "2>&1").exit, 3);
+}
+
+TEST_F(FileCommands, ConvertChangesUnitAndRate) {
+  EXPECT_EQ(run("convert clip.bvh new/out.bvh --unit m --out-unit cm --fps 50", "2>&1").exit, 0);
+  const std::string out = bytes_of("new/out.bvh");
+  EXPECT_NE(out.find("OFFSET 0 -80 10"), std::string::npos) << out;
+  EXPECT_NE(out.find("Frames: 3\nFrame Time: 0.02\n"), std::string::npos) << out;
+  EXPECT_NE(out.find("\n125.000000 200.000000 300.000000 "), std::string::npos) << out;
+}
+
+TEST_F(FileCommands, ConvertRefusesWhatItCannotDo) {
+  EXPECT_EQ(run("convert clip.bvh out.json", "2>&1").exit, 3);
+  EXPECT_EQ(run("convert clip.bvh out.bvh --unit furlong", "2>&1").exit, 2);
+  EXPECT_EQ(run("convert clip.bvh /proc/none/out.bvh", "2>&1").exit, 5);
+  EXPECT_EQ(run("convert clip.bvh", "2>&1").exit, 2);
+}
+
+}  // namespace
+}  // namespace kinegraph
