@@ -61,7 +61,7 @@ NodeType footskate_node() {
              "How long a change takes to die away in frames without a plant.");
   type.param("stretch", number(defaults.stretch).between(0, 0.9).slider(0, 0.15),
              "Most change of a leg's length, as a part of it; 0 = rigid legs. CMU walks that drift at 0.15 "
-             "m/s need 0.042.");
+             "m/s need 0.047.");
   type.param("knee_damping", number(defaults.knee_damping).between(0, 180).in("°").slider(0, 150),
              "Flexion from which on the knee bends freely; towards extension it keeps its angle, so that it "
              "can't pop.");
