@@ -15,6 +15,8 @@ NodeType gait_node();
 NodeType detect_contacts_node();
 NodeType footskate_node();
 NodeType quat_stats_node();
+NodeType style_transfer_node();
+NodeType metrics_node();
 NodeType check_node();
 NodeType motion_warp_node();
 NodeType time_warp_node();
@@ -40,6 +42,8 @@ Registry all_nodes() {
   registry.add(detect_contacts_node());
   registry.add(footskate_node());
   registry.add(quat_stats_node());
+  registry.add(style_transfer_node());
+  registry.add(metrics_node());
   registry.add(check_node());
   registry.add(motion_warp_node());
   registry.add(time_warp_node());
