@@ -55,8 +55,10 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
       outcome.exit = exit_code::internal;
     }
   }
-  if (outcome.log.stopped || interruption.exit_code() != 0)
+  if (interruption.exit_code() != 0) {
+    program.terminal.message("kinegraph: interrupted\n");
     outcome.exit = graver(outcome.exit, interruption.exit_code());
+  }
   if (!program.terminal.results_written()) {
     program.terminal.message("kinegraph: standard output can't be written\n");
     outcome.exit = graver(outcome.exit, exit_code::cannot_write);
