@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -56,6 +57,22 @@ Opened open_graph(const std::string& argument, const Registry& registry, bool mi
   opened.problems = std::move(read.problems);
   opened.migrated = read.migrated;
   return opened;
+}
+
+Diagnostics all_problems(const Opened& opened, const Registry& registry, const ValidateOptions& options) {
+  Diagnostics all = opened.problems;
+  if (opened.document.read_only || (has_error(all) && opened.document.nodes.empty())) return all;
+  for (auto& problem : validate(opened.document, registry, options)) {
+    bool told = std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
+      return other.code == problem.code && other.place.line == problem.place.line &&
+             other.place.column == problem.place.column && other.message == problem.message;
+    });
+    if (!told) all.push_back(std::move(problem));
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+  return all;
 }
 
 std::map<std::string, Json> parsed_variables(const std::vector<std::string>& vars) {

@@ -23,6 +23,14 @@ void say_log(const Terminal& terminal, const RunLog& log, const std::string& gra
   if (log.timed_out) terminal.message("kinegraph: timed out\n");
 }
 
+Progress::Form form_of(const RunArguments& arguments, const Terminal& terminal) {
+  try {
+    return Progress::form_of(arguments.progress, terminal);
+  } catch (const Failure& failure) {
+    throw UsageError(failure.diagnostic());
+  }
+}
+
 }  // namespace
 
 int run_to_outcome(const Program& program, const RunArguments& arguments, Opened opened,
@@ -30,7 +38,7 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
                    const std::function<int(Session&, const RunLog&)>& after) {
   using exit_code::graver;
   Interruption interruption;
-  Progress progress(Progress::form_of(arguments.progress, program.terminal), program.terminal);
+  Progress progress(form_of(arguments, program.terminal), program.terminal);
   Session session(program, arguments, std::move(opened));
   Outcome outcome;
   outcome.problems = session.problems();

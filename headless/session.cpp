@@ -35,7 +35,7 @@ std::uint64_t size_option(const char* option, const std::string& text, std::uint
 }  // namespace
 
 Session::Session(const Program& program, const RunArguments& arguments, Opened opened)
-    : program_(program), arguments_(arguments), opened_(std::move(opened)), problems_(opened_.problems) {
+    : program_(program), arguments_(arguments), opened_(std::move(opened)) {
   if (arguments.threads < 0) throw UsageError(error("bad-option", "--threads can't be negative"));
   if (arguments.timeout < 0) throw UsageError(error("bad-option", "--timeout can't be negative"));
   options_.threads = arguments.threads;
@@ -60,15 +60,16 @@ Session::Session(const Program& program, const RunArguments& arguments, Opened o
     planning.sets.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
 
-  if (!has_error(problems_)) {
-    ValidateOptions checking{.file = opened_.shown,
-                             .folder = opened_.folder,
-                             .check_files = false,
-                             .allow_outside = arguments.allow_outside,
-                             .variables = variables};
-    auto more = validate(opened_.document, program.registry, checking);
-    problems_.insert(problems_.end(), more.begin(), more.end());
-  }
+  problems_ = all_problems(opened_, program.registry,
+                           {.file = opened_.shown,
+                            .folder = opened_.folder,
+                            .check_files = false,
+                            .allow_outside = arguments.allow_outside,
+                            .variables = variables});
+  if (opened_.document.read_only && !has_error(problems_))
+    problems_.push_back(error("newer-schema", "a file of a newer schema can't be run")
+                            .in_file(opened_.shown)
+                            .hinting("use a newer version of kinegraph"));
   if (!has_error(problems_)) {
     Diagnostics planned;
     plan_ = make_plan(opened_.document, program.registry, planning, planned);

@@ -11,6 +11,7 @@
 #include "graph/evaluate/run_log.h"
 #include "graph/plan.h"
 #include "graph/registry.h"
+#include "graph/validate.h"
 #include "headless/progress.h"
 #include "headless/terminal.h"
 
@@ -51,6 +52,9 @@ struct Opened {
 };
 // Reads a graph file; a file that is missing or unreadable is a problem like any other.
 Opened open_graph(const std::string& argument, const Registry& registry, bool migrate = true);
+// Everything wrong with a graph: what reading found and what validating finds beyond it, each once, in file
+// order.
+Diagnostics all_problems(const Opened& opened, const Registry& registry, const ValidateOptions& options);
 // "NAME=VALUE" of --var. Throws UsageError.
 std::map<std::string, Json> parsed_variables(const std::vector<std::string>& vars);
 // Whether a file is a graph and not a clip or an analysis: by its ending, or by its "format" member.

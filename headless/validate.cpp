@@ -38,17 +38,9 @@ int validate_command(const Program& program, const ValidateArguments& arguments)
   int code = exit_code::done;
   for (const auto& graph : arguments.graphs) {
     Opened opened = open_graph(graph, program.registry);
-    Diagnostics problems = opened.problems;
-    // A document that could only be read in part is checked no further: what follows would be guesses about
-    // its gaps.
-    if (!has_error(problems)) {
-      auto more = validate(opened.document, program.registry,
-                           {.file = graph,
-                            .folder = opened.folder,
-                            .check_files = !arguments.no_files,
-                            .variables = variables});
-      problems.insert(problems.end(), more.begin(), more.end());
-    }
+    Diagnostics problems = all_problems(
+        opened, program.registry,
+        {.file = graph, .folder = opened.folder, .check_files = !arguments.no_files, .variables = variables});
     for (const auto& problem : problems) {
       if (arguments.json) {
         all.push_back(json_of(problem, graph));
