@@ -19,6 +19,7 @@ NodeType style_transfer_node();
 NodeType metrics_node();
 NodeType check_node();
 NodeType motion_warp_node();
+NodeType segment_node();
 NodeType time_warp_node();
 NodeType unwarp_time_node();
 NodeType load_node();
@@ -46,6 +47,7 @@ Registry all_nodes() {
   registry.add(metrics_node());
   registry.add(check_node());
   registry.add(motion_warp_node());
+  registry.add(segment_node());
   registry.add(time_warp_node());
   registry.add(unwarp_time_node());
   registry.add(load_node());
