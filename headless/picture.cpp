@@ -61,7 +61,10 @@ Canvas drawing_of(const std::vector<Drawn>& all, const PictureArguments& argumen
     options.motion = dynamic_cast<const Motion*>(all[0].beside.get());
     return picture_of(*all[0].value, options);
   }
-  StripOptions options{.title = title, .moments = arguments.moments, .contact_bars = false};
+  StripOptions options{.title = title,
+                       .subtitle = fmt::format("{} motions at one scale", all.size()),
+                       .moments = arguments.moments,
+                       .contact_bars = false};
   std::vector<StripRow> rows;
   for (const auto& one : all) {
     auto motion = dynamic_cast<const Motion*>(one.value.get());
@@ -106,7 +109,9 @@ int picture_of_files(const Program& program, const PictureArguments& arguments) 
     all.push_back({std::filesystem::path(file).stem().string(), loaded.value,
                    beside(session, program, {"load", loaded.port})});
   }
-  return write_drawing(program, all, arguments, all.size() == 1 ? all[0].name : "");
+  std::string title;
+  for (const auto& one : all) title += (title.empty() ? "" : ", ") + one.name;
+  return write_drawing(program, all, arguments, title);
 }
 
 }  // namespace

@@ -11,12 +11,21 @@ namespace kinegraph {
 
 namespace {
 
-std::string number_text(const Metric& metric) {
+// "m/s2" as a reader writes it.
+std::string unit_text(std::string unit) {
+  if (unit == "deg") return "°";
+  if (unit.ends_with("2")) unit.replace(unit.size() - 1, 1, "²");
+  if (unit.ends_with("3")) unit.replace(unit.size() - 1, 1, "³");
+  return unit.empty() ? unit : " " + unit;
+}
+
+std::string number_text(const Metric& metric, int digits) {
   if (!metric.value) return "not measured";
   double value = *metric.value;
-  std::string number = std::abs(value) >= 1000 && std::abs(value) < 1e6 ? fmt::format("{:.0f}", value)
-                                                                        : fmt::format("{:.4g}", value);
-  return metric.unit.empty() ? number : number + (metric.unit == "°" ? "" : " ") + metric.unit;
+  std::string number = std::abs(value) >= 1000 && std::abs(value) < 1e6
+                           ? fmt::format("{:.0f}", value)
+                           : fmt::format("{:.{}g}", value, digits);
+  return number + unit_text(metric.unit);
 }
 
 struct Group {
@@ -43,9 +52,11 @@ Canvas draw_metrics(const Metrics& metrics, const std::string& title) {
     overall.push_back(&metric);
     missing += metric.value ? 0 : 1;
   }
+  // Bars of nothing, or of zeros alone, would only push the others down.
+  for (auto& group : groups) std::erase_if(group.joints, [](const Metric* metric) { return !metric->value; });
   std::erase_if(groups, [](const Group& group) {
-    return std::none_of(group.joints.begin(), group.joints.end(),
-                        [](const Metric* m) { return m->value.has_value(); });
+    return std::all_of(group.joints.begin(), group.joints.end(),
+                       [](const Metric* m) { return *m->value == 0; });
   });
 
   Canvas canvas(1080, 100);
@@ -59,7 +70,7 @@ Canvas draw_metrics(const Metrics& metrics, const std::string& title) {
     if (i % 2 == 0) canvas.fill(rectangle(left, at, table, row, 3), theme::panel);
     canvas.text({left + 10, at + 14.5}, overall[i]->name, {.size = 11.5, .color = theme::ink});
     canvas.text(
-        {left + table - 10, at + 14.5}, number_text(*overall[i]),
+        {left + table - 10, at + 14.5}, number_text(*overall[i], 4),
         {.size = 11.5, .color = overall[i]->value ? theme::ink : theme::faint, .anchor = Anchor::end});
     at += row;
   }
@@ -73,11 +84,10 @@ Canvas draw_metrics(const Metrics& metrics, const std::string& title) {
     int side = tops[1] < tops[0] ? 1 : 0;
     double x = columns_x + side * (column + gap), top = tops[side];
     double largest = 0;
-    for (const Metric* metric : group.joints)
-      if (metric->value) largest = std::max(largest, std::abs(*metric->value));
+    for (const Metric* metric : group.joints) largest = std::max(largest, std::abs(*metric->value));
     auto shown = group.joints;
     std::stable_sort(shown.begin(), shown.end(), [](const Metric* a, const Metric* b) {
-      return std::abs(a->value.value_or(-1)) > std::abs(b->value.value_or(-1));
+      return std::abs(*a->value) > std::abs(*b->value);
     });
     const std::size_t most = 12;
     std::size_t hidden = shown.size() > most ? shown.size() - most : 0;
@@ -89,14 +99,14 @@ Canvas draw_metrics(const Metrics& metrics, const std::string& title) {
     top += 20;
     for (const Metric* metric : shown) {
       auto joint = metric->name.substr(group.name.size() + 1);
-      double names = 92, numbers = 76, bars = column - names - numbers;
+      double names = 110, numbers = 72, bars = column - names - numbers;
       canvas.text({x + names - 8, top + 10.5}, fitted(joint, 10, names - 10),
                   {.size = 10, .color = theme::ink, .anchor = Anchor::end});
-      if (metric->value && largest > 0)
+      if (largest > 0)
         canvas.fill(
             rectangle(x + names, top + 2, std::max(1.0, bars * std::abs(*metric->value) / largest), 10, 3),
             mixed(theme::left, theme::paper, 0.15));
-      canvas.text({x + column, top + 10.5}, number_text(*metric),
+      canvas.text({x + column, top + 10.5}, number_text(*metric, 3),
                   {.size = 10, .color = theme::muted, .anchor = Anchor::end});
       top += 15;
     }
