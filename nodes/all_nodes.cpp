@@ -24,6 +24,12 @@ NodeType time_warp_node();
 NodeType unwarp_time_node();
 NodeType load_node();
 NodeType export_node();
+NodeType blend_node();
+NodeType concatenate_node();
+NodeType filter_node();
+NodeType mirror_node();
+NodeType resample_node();
+NodeType trim_node();
 
 Registry all_nodes() {
   Registry registry;
@@ -54,6 +60,12 @@ Registry all_nodes() {
   registry.add(export_node());
   registry.add(switch_node());
   registry.add(dot_node());
+  registry.add(blend_node());
+  registry.add(concatenate_node());
+  registry.add(filter_node());
+  registry.add(mirror_node());
+  registry.add(resample_node());
+  registry.add(trim_node());
   return registry;
 }
 

@@ -140,10 +140,11 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 void warn_about_partners(const Skeleton& from, const Skeleton& to, const std::vector<int>& partner_of_to,
-                         Work& work) {
+                         Work& work, const std::vector<bool>* chosen) {
+  auto counts = [&](int joint) { return !chosen || (*chosen)[joint]; };
   std::vector<std::string> alone;
   for (int j = 0; j < to.size(); ++j)
-    if (partner_of_to[j] < 0) alone.push_back(to.joints[j].name);
+    if (partner_of_to[j] < 0 && counts(j)) alone.push_back(to.joints[j].name);
   if (!alone.empty()) {
     work.report(warning("no-partner",
                         fmt::format("{} of {} joints have no partner in the other motion and stay as they "
@@ -157,7 +158,7 @@ void warn_about_partners(const Skeleton& from, const Skeleton& to, const std::ve
   double largest = 0;
   for (int j = 0; j < to.size(); ++j) {
     int partner = partner_of_to[j];
-    if (partner < 0) continue;
+    if (partner < 0 || !counts(j)) continue;
     int ancestor = to.joints[j].parent;
     while (ancestor >= 0 && partner_of_to[ancestor] < 0) ancestor = to.joints[ancestor].parent;
     if (ancestor < 0 || partner_of_to[ancestor] == partner ||

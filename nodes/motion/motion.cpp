@@ -41,6 +41,14 @@ double zero_if_finite(const std::vector<double>& values) {
 
 }  // namespace
 
+std::shared_ptr<const SourceFacts> without_read(const std::shared_ptr<const SourceFacts>& source) {
+  if (!source->read) return source;
+  auto facts = std::make_shared<SourceFacts>(*source);
+  facts->read = nullptr;
+  facts->read_frames = facts->first_read = 0;
+  return facts;
+}
+
 Motion::Motion(std::shared_ptr<const Skeleton> skeleton, std::shared_ptr<const SourceFacts> source,
                double fps, std::size_t frames, std::vector<bool> translates)
     : skeleton_(std::move(skeleton)), source_(std::move(source)), fps_(fps), frames_(frames) {

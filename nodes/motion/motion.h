@@ -38,6 +38,9 @@ struct SourceFacts {
   std::size_t first_read = 0;
 };
 
+// The same facts of a motion whose frames are no longer those that were read: without the angles as read.
+std::shared_ptr<const SourceFacts> without_read(const std::shared_ptr<const SourceFacts>& source);
+
 // Three or four time series of `frames` doubles each, one after the other.
 struct Vec3Track {
   std::span<double> x, y, z;
