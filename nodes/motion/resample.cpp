@@ -1,68 +1,110 @@
 #include "nodes/motion/resample.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace kinegraph {
 
 namespace {
 
-// Between p1 (u = 0) and p2 (u = 1), with the slopes of the chords around them.
-double catmull_rom(double p0, double p1, double p2, double p3, double u) {
-  const double a = 2 * p1, b = p2 - p0, c = 2 * p0 - 5 * p1 + 4 * p2 - p3, d = 3 * (p1 - p2) + p3 - p0;
-  return 0.5 * (a + u * (b + u * (c + u * d)));
+double whole_rate(double fps) {
+  double whole = std::floor(fps + 0.5);
+  return whole > 0 && std::fabs(fps - whole) <= 5e-5 * whole ? whole : fps;
 }
 
-double sampled(std::span<const double> series, std::size_t before, double u) {
-  if (u == 0) return series[before];
-  const std::size_t last = series.size() - 1;
-  const double p1 = series[before], p2 = series[before + 1];
-  // Past an end the motion goes on as it came.
-  const double p0 = before > 0 ? series[before - 1] : 2 * p1 - p2;
-  const double p3 = before + 2 <= last ? series[before + 2] : 2 * p2 - p1;
-  return catmull_rom(p0, p1, p2, p3, u);
+// Between b and c, u from 0 to 1; a and d are the samples before and after.
+Vec3 catmull_rom(Vec3 a, Vec3 b, Vec3 c, Vec3 d, double u) {
+  Vec3 from = 0.5 * (c - a), to = 0.5 * (d - b);
+  Vec3 step = c - b;
+  Vec3 square = 3 * step - 2 * from - to, cube = from + to - 2 * step;
+  return b + u * (from + u * (square + u * cube));
+}
+
+// The sample after an end, on the parabola through the last three.
+Vec3 beyond(ConstVec3Track p, std::ptrdiff_t end, std::ptrdiff_t inwards) {
+  auto frames = static_cast<std::ptrdiff_t>(p.x.size());
+  std::size_t a = end, b = end + inwards;
+  if (frames < 3) return 2 * p[a] - p[b];
+  std::size_t c = end + 2 * inwards;
+  return 3 * (p[a] - p[b]) + p[c];
+}
+
+struct Moment {
+  std::size_t frame;  // at or before it
+  double part;        // of the way to the next; 0 = the frame itself
+};
+
+Vec3 placed(ConstVec3Track p, Moment moment) {
+  std::size_t t = moment.frame;
+  if (moment.part == 0) return p[t];
+  auto last = static_cast<std::ptrdiff_t>(p.x.size()) - 1;
+  Vec3 before = t > 0 ? p[t - 1] : beyond(p, 0, 1);
+  Vec3 after = static_cast<std::ptrdiff_t>(t) + 2 <= last ? p[t + 2] : beyond(p, last, -1);
+  return catmull_rom(before, p[t], p[t + 1], after, moment.part);
+}
+
+// Where the new samples lie among the old ones. Ratios of whole rates meet their common moments exactly.
+std::vector<Moment> moments(std::size_t frames, double from, double to) {
+  std::vector<Moment> all;
+  constexpr double nothing = 1e-9;  // of a frame: rounding, not a place between frames
+  double last = static_cast<double>(frames - 1);
+  for (std::size_t k = 0;; ++k) {
+    double place = static_cast<double>(k) * from / to;
+    if (place > last + nothing) return all;
+    double frame = std::floor(place + nothing);
+    double part = place - frame;
+    if (part < nothing || frame >= last) part = 0;
+    all.push_back({static_cast<std::size_t>(frame), part});
+  }
+}
+
+std::shared_ptr<const SourceFacts> facts_at(const Motion& motion) {
+  auto facts = std::make_shared<SourceFacts>(*without_read(motion.shared_source()));
+  facts->frame_time_text.clear();  // the file's spelling of another rate
+  return facts;
 }
 
 }  // namespace
 
 Motion resampled(const Motion& motion, double fps, Work& work) {
-  if (fps == motion.fps()) return motion;
-  const std::size_t frames = motion.frames();
-  std::size_t count = 0;
-  if (frames > 0)
-    count =
-        static_cast<std::size_t>(std::floor(static_cast<double>(frames - 1) / motion.fps() * fps + 1e-6)) + 1;
-  auto memory = work.reserve(count * static_cast<std::size_t>(motion.joints()) * 4 * sizeof(double));
-  Motion out(motion.shared_skeleton(), motion.shared_source(), fps, count, motion.translating());
-  std::vector<std::size_t> before(count);
-  std::vector<double> part(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double at = static_cast<double>(i) * motion.fps() / fps;
-    double whole = std::floor(at + 1e-9);
-    if (whole >= static_cast<double>(frames - 1)) whole = static_cast<double>(frames - 1);
-    before[i] = static_cast<std::size_t>(whole);
-    part[i] = before[i] == frames - 1 || at - whole < 1e-9 ? 0 : at - whole;
+  double from = whole_rate(motion.fps()), to = whole_rate(fps);
+  if (motion.frames() == 0 || from == to) {
+    if (motion.fps() == fps) return motion;
+    Motion same(motion.shared_skeleton(), motion.shared_source(), fps, motion.frames(), motion.translating());
+    for (int j = 0; j < motion.joints(); ++j) {
+      for (std::size_t t = 0; t < motion.frames(); ++t) same.rotation(j).set(t, motion.rotation(j)[t]);
+      if (!motion.translates(j)) continue;
+      for (std::size_t t = 0; t < motion.frames(); ++t) same.translation(j).set(t, motion.translation(j)[t]);
+    }
+    return same;
   }
+  double count = static_cast<double>(motion.frames() - 1) * to / from + 1;
+  if (count > 1e8) {
+    throw Failure(error("too-many-frames", fmt::format("{:.0f} frames would come out", count))
+                      .at_param("fps")
+                      .hinting("choose a lower rate"));
+  }
+  auto samples = moments(motion.frames(), from, to);
+  Motion result(motion.shared_skeleton(), facts_at(motion), fps, samples.size(), motion.translating());
   work.parallel(static_cast<std::size_t>(motion.joints()), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j) {
+    for (int j = static_cast<int>(begin); j < static_cast<int>(end); ++j) {
       work.check();
-      const int joint = static_cast<int>(j);
-      auto from = motion.rotation(joint);
-      auto to = out.rotation(joint);
-      for (std::size_t i = 0; i < count; ++i) {
-        Quat q = from[before[i]];
-        if (part[i] != 0) q = slerp(part[i], q, from[before[i] + 1]);
-        to.set(i, i > 0 ? nearer(q, to[i - 1]) : q);
+      auto q = motion.rotation(j);
+      auto out = result.rotation(j);
+      for (std::size_t k = 0; k < samples.size(); ++k) {
+        auto [t, part] = samples[k];
+        out.set(k, part == 0 ? q[t] : slerp(part, q[t], q[t + 1]));
+        if (k % 4096 == 0) work.check();
       }
-      if (!motion.translates(joint)) continue;
-      auto track = motion.translation(joint);
-      auto moved = out.translation(joint);
-      for (std::size_t i = 0; i < count; ++i)
-        moved.set(i, {sampled(track.x, before[i], part[i]), sampled(track.y, before[i], part[i]),
-                      sampled(track.z, before[i], part[i])});
+      make_continuous(out.x, out.y, out.z, out.w);
+      if (!motion.translates(j)) continue;
+      auto p = motion.translation(j);
+      auto place = result.translation(j);
+      for (std::size_t k = 0; k < samples.size(); ++k) place.set(k, placed(p, samples[k]));
     }
   });
-  return out;
+  return result;
 }
 
 }  // namespace kinegraph

@@ -1,13 +1,14 @@
-// A motion at another rate.
+// The same motion at another frame rate.
 #pragma once
 #include "graph/work.h"
 #include "nodes/motion/motion.h"
 
 namespace kinegraph {
 
-// Frame i of the result lies at i / fps seconds; as many frames as fit in the motion's length (its last frame
-// included). Rotations by Slerp, translations by the cubic through the neighbouring frames (Catmull-Rom). The
-// motion itself when it has that rate.
+// Rotations by Slerp between neighbouring frames, translations by a cubic through four (Catmull-Rom, C1). A
+// sample at the time of a frame is that frame, bit for bit. Samples lie at k / fps seconds from frame 0 on,
+// as far as the last frame. Rates within 0.005 % of a whole number count as it: 1/0.008333 is 120. Nothing is
+// filtered before frames are left out. fps > 0.
 Motion resampled(const Motion& motion, double fps, Work& work);
 
 }  // namespace kinegraph

@@ -71,7 +71,8 @@ void filter_rotation(ConstQuatTrack from, QuatTrack to, const Smooth& smooth, st
   for (double part : slower) {
     Lowpass reference_filter(fps, part * cutoff, 2);
     LongerRotation q(from, std::max(memory, reference_filter.memory()));
-    auto reference = smoothed_components(q, [&](std::span<double> s) { reference_filter.apply(s); });
+    auto reference =
+        smoothed_components(q, [&](std::span<double> s) { reference_filter.apply_to_continued(s); });
     if (!reference) continue;
     double largest = 0;
     for (std::size_t i = 0; i < q.size(); ++i) largest = std::max(largest, turn((*reference)[i], q[i]));
@@ -112,11 +113,18 @@ Motion filtered(const Motion& motion, const std::vector<bool>& joints, const Fil
     else
       butterworth.apply(series);
   };
+  Smooth smooth_continued = [&](std::span<double> series) {
+    if (gaussian)
+      Gaussian(sigma, series.size()).apply(series);
+    else
+      butterworth.apply_to_continued(series);
+  };
   work.parallel(joints.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (int j = static_cast<int>(begin); j < static_cast<int>(end); ++j) {
       work.check();
       if (!joints[j]) continue;
-      filter_rotation(motion.rotation(j), result.rotation(j), smooth, memory, motion.fps(), settings.cutoff);
+      filter_rotation(motion.rotation(j), result.rotation(j), smooth_continued, memory, motion.fps(),
+                      settings.cutoff);
       if (!motion.translates(j)) continue;
       auto p = result.translation(j);
       for (auto series : {p.x, p.y, p.z}) smooth(series);

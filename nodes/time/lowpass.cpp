@@ -1,7 +1,7 @@
 #include "nodes/time/lowpass.h"
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "nodes/motion/elementary.h"
 
@@ -32,7 +32,7 @@ Lowpass::Lowpass(double fps, double cutoff, int order) {
 }
 
 // Each section starts as if the first sample had stood there for ever.
-void Lowpass::pass(std::vector<double>& series) const {
+void Lowpass::pass(std::span<double> series) const {
   for (const Section& s : sections_) {
     double s2 = (s.b2 - s.a2) * series[0];
     double s1 = (s.b1 - s.a1) * series[0] + s2;
@@ -51,11 +51,16 @@ void Lowpass::apply(std::span<double> series) const {
   auto count = static_cast<std::ptrdiff_t>(series.size());
   std::vector<double> longer(series.size() + 2 * memory_);
   for (std::ptrdiff_t i = -pad; i < count + pad; ++i) longer[i + pad] = reflected(series, i);
-  pass(longer);
-  for (std::size_t i = 0, j = longer.size() - 1; i < j; ++i, --j) std::swap(longer[i], longer[j]);
-  pass(longer);
-  for (std::ptrdiff_t i = 0; i < count; ++i)
-    series[i] = longer[longer.size() - 1 - static_cast<std::size_t>(i + pad)];
+  apply_to_continued(longer);
+  std::copy_n(longer.begin() + pad, count, series.begin());
+}
+
+void Lowpass::apply_to_continued(std::span<double> series) const {
+  if (passes_all() || series.empty()) return;
+  pass(series);
+  std::reverse(series.begin(), series.end());
+  pass(series);
+  std::reverse(series.begin(), series.end());
 }
 
 std::vector<double> lowpass(std::span<const double> series, double fps, double cutoff, int order) {

@@ -17,6 +17,8 @@ class Lowpass {
   Lowpass(double fps, double cutoff, int order = 2);
 
   void apply(std::span<double> series) const;
+  // The same for a series that the caller has continued at both ends, by memory() samples or more.
+  void apply_to_continued(std::span<double> series) const;
   bool passes_all() const { return sections_.empty(); }
   // Samples after which the filter has forgotten what it started from, to some 10 digits.
   std::size_t memory() const { return memory_; }
@@ -26,7 +28,7 @@ class Lowpass {
   struct Section {
     double b0, b1, b2, a1, a2;
   };
-  void pass(std::vector<double>& series) const;
+  void pass(std::span<double> series) const;
 
   std::vector<Section> sections_;
   std::size_t memory_ = 0;

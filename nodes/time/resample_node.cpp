@@ -1,6 +1,6 @@
 #include "graph/compute.h"
 #include "graph/node_type.h"
-#include "nodes/time/resample.h"
+#include "nodes/motion/resample.h"
 
 namespace kinegraph {
 

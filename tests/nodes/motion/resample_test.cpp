@@ -1,4 +1,4 @@
-#include "nodes/time/resample.h"
+#include "nodes/motion/resample.h"
 
 #include <gtest/gtest.h>
 
