@@ -202,7 +202,8 @@ JointGain transfer_rho(EncodedRoot& root, const Skeleton& skeleton, const Source
   return gain;
 }
 
-// Eq. 4 on the path. Lengths of the reference are brought to the source's size by their legs.
+// Eq. 4 on the path, but for travel that feet set. Lengths of the reference are brought to the source's size
+// by their legs.
 void transfer_path(EncodedRoot& root, const Motion& motion, const Stats& style, const Stats& own,
                    const StyleTransferParams& params) {
   const double leg = leg_length(motion.skeleton());
@@ -212,7 +213,8 @@ void transfer_path(EncodedRoot& root, const Motion& motion, const Stats& style, 
                               size * style.root_spread[axis], params);
     for (double& value : values) value = eq4(value);
   };
-  if (params.root == TransferredRoot::both || params.root == TransferredRoot::travel) {
+  const bool travels = params.root == TransferredRoot::both || params.root == TransferredRoot::travel;
+  if (travels && params.travel == TravelKind::printed) {
     change(0, scale, root.d_x);
     change(1, scale, root.d_z);
   }
@@ -229,29 +231,9 @@ void decode(const EncodedRoot& root, const StyleTransferParams& params, Motion& 
   }
 }
 
-// Turns travel in the heading's frame so that its mean keeps the source's direction. The reference's mean d_x
-// and d_z tell how its pelvis stands to its path as much as where it goes, and with the heading kept they
-// would lead a straight walk up to 50° off its way, across its own feet (CMU 16_31 ← 104). A source that
-// stays on the spot has no direction to keep.
-void keep_direction(EncodedRoot& root, const EncodedRoot& source) {
-  const auto mean = [](const std::vector<double>& values) {
-    double sum = 0;
-    for (std::size_t t = 1; t < values.size(); ++t) sum += values[t];
-    return sum / static_cast<double>(values.size() - 1);
-  };
-  constexpr double on_the_spot = 0.05;  // m/s
-  const double to_x = mean(source.d_x), to_z = mean(source.d_z);
-  const double from_x = mean(root.d_x), from_z = mean(root.d_z);
-  if (to_x * to_x + to_z * to_z < on_the_spot * on_the_spot || from_x * from_x + from_z * from_z < 1e-6)
-    return;
-  const SinCos turned = sin_cos(arc_tangent2(to_x, to_z) - arc_tangent2(from_x, from_z));
-  for (std::size_t t = 0; t < root.d_x.size(); ++t) {
-    const double x = root.d_x[t], z = root.d_z[t];
-    root.d_x[t] = turned.cos * x + turned.sin * z;
-    root.d_z[t] = turned.cos * z - turned.sin * x;
-  }
-}
-
+// `changed` has its joints at full strength and travels as the source does. A motion that comes out of
+// TimeWarp holds frames and leaves some out: its feet jerk, no plant is found, and its root goes on while
+// they rest. Its factor is that of the sweep of its feet instead.
 double factor_for_planted_feet(const Motion& motion, const Motion& changed, const StyleTransferParams& params,
                                Work& work) {
   std::vector<bool> counted;
@@ -259,17 +241,19 @@ double factor_for_planted_feet(const Motion& motion, const Motion& changed, cons
   std::optional<double> factor;
   if (!find_legs(motion.skeleton()).empty()) {
     const Contacts contacts = detect_contacts(motion, DetectContactsParams{}, work);
-    factor = travel_factor(changed, contacts, counted, work);
+    factor = holds_frames(motion) ? sweep_factor(motion, changed, contacts, counted, work)
+                                  : travel_factor(changed, contacts, counted, work);
   }
   if (!factor) {
-    work.report(warning("no-plants", "no planted feet to set the speed of travel by; it is the reference's")
+    work.report(warning("no-plants", "no planted feet to set the speed of travel by; it stays as it is")
                     .at_param("travel")
-                    .hinting("set travel to printed, or root to height to keep the source's speed"));
+                    .hinting("set travel to printed for the reference's speed"));
     return 1;
   }
-  work.report(info("travel-factor",
-                   fmt::format("travel is {:.3f} times eq. 4's, so that planted feet stand still", *factor))
-                  .at_param("travel"));
+  work.report(
+      info("travel-factor",
+           fmt::format("travel is {:.3f} times the motion's own, so that planted feet stand still", *factor))
+          .at_param("travel"));
   return *factor;
 }
 
@@ -292,7 +276,6 @@ JointGain transfer_root(const Motion& motion, const EncodedRoot& source, const S
   const bool travels = params.root == TransferredRoot::both || params.root == TransferredRoot::travel;
   const bool turns = params.heading == HeadingKind::transfer;
   if (travels && params.travel == TravelKind::feet && motion.frames() > 1) {
-    keep_direction(root, source);
     decode(root, params, changed);
     travel = factor_for_planted_feet(motion, changed, params, work);
   }

@@ -38,12 +38,17 @@ struct JointGain {
 };
 struct StyleTransferResult {
   Motion motion;
-  double travel_factor = 1;      // by which `feet` multiplied the travel of eq. 4
+  double travel_factor = 1;      // by which `feet` multiplied the travel
   std::vector<JointGain> gains;  // of the joints that were changed, in quaternion space
 };
 
-// Travel `printed` is eq. 4's. `feet` turns it in the heading's frame so that its mean keeps the motion's own
-// direction, and multiplies it by travel_factor of the planted feet; both at full strength, before `weights`.
+// Travel `printed` is eq. 4's: the reference's speed, under legs that keep the source's cadence, and its
+// sideways drift, which with the heading kept leads a walk up to 50° off its way (CMU 16_31 ← 104), as it
+// tells how the reference's pelvis stands to its path. `feet` is the motion's own d_x and d_z times the one
+// factor that makes its planted feet, in their new pose, slide least: the direction of travel stays the
+// motion's, and the steps' rhythm fits its legs. (Eq. 4's d times a factor slides twice as much on all four
+// pairs of Wu's Table 1: its spread, magnified with the mean, has nothing to do with the source's steps.) The
+// factor is found at full strength, before `weights`.
 //
 // `own`: the motion's own statistics; null: measured here with the style's settings. Joints that `style`
 // doesn't hold keep their motion. Frame rates may differ: travel is per second. Throws Failure:

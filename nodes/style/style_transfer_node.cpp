@@ -68,12 +68,11 @@ NodeType style_transfer_node() {
                      {"height", "height only"},
                      {"none", "the path stays as it is"}}),
              "what the root's path takes; it follows the root joint in joints");
-  type.param("travel",
-             choice({{"feet",
-                      "eq. 4, in the motion's own direction, times the one factor that lets planted feet "
-                      "stand still best"},
-                     {"printed", "eq. 4 as it stands: the reference's speed and sideways drift"}}),
-             "how fast the result travels");
+  type.param(
+      "travel",
+      choice({{"feet", "the motion's own travel times the one factor that lets planted feet slide least"},
+              {"printed", "eq. 4 as it stands: the reference's speed and sideways drift"}}),
+      "how fast the result travels");
   type.param("heading",
              choice({{"keep", "the motion's own"}, {"transfer", "eq. 4 on the change of heading"}}),
              "where the result faces");

@@ -18,4 +18,16 @@ namespace kinegraph {
 std::optional<double> travel_factor(const Motion& motion, const Contacts& contacts,
                                     const std::vector<bool>& counted, Work& work);
 
+// Whether the pose of some frame, the rotations of all joints but the root, is that of the frame before bit
+// for bit, as in a motion that TimeWarp has laid on a longer clock.
+bool holds_frames(const Motion& motion);
+
+// The factor for a motion whose frames are held and left out, whose root therefore doesn't fit its feet frame
+// by frame: how much longer the steps of low feet relative to the root have become from `before` to `after`,
+// Σ b·b′ / Σ b·b over the points of `contacts` (planted or not) where they are within 4 cm of their usual
+// low. As long as the feet of `before` stood still in their own time, so will those of `after`. Both motions
+// have the same frames and headings. Nothing where nothing moves.
+std::optional<double> sweep_factor(const Motion& before, const Motion& after, const Contacts& contacts,
+                                   const std::vector<bool>& counted, Work& work);
+
 }  // namespace kinegraph

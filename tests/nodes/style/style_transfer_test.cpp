@@ -321,7 +321,7 @@ TEST(StyleTransfer, KeepsTheDirectionOfTravel) {
     const Vec3 way = motion.translation(0)[motion.frames() - 1] - motion.translation(0)[0];
     return std::atan2(way.x, way.z) * degrees;
   };
-  EXPECT_NEAR(direction(transferred(walk, stats_of(askew)).motion), direction(walk), 1);
+  EXPECT_NEAR(direction(transferred(walk, stats_of(askew)).motion), direction(walk), 1e-6);
   StyleTransferParams printed;
   printed.travel = TravelKind::printed;
   EXPECT_GT(std::fabs(direction(transferred(walk, stats_of(askew), printed).motion) - direction(walk)), 20);
@@ -368,6 +368,7 @@ TEST(StyleTransfer, HalfTheAmountIsHalfWay) {
 TEST(StyleTransfer, GoesOnFromWhereItIsAfterTheRange) {
   const Motion source = lively().made(200);
   StyleTransferParams params;
+  params.travel = TravelKind::printed;
   params.weights.assign(200, 0.0);
   for (std::size_t t = 50; t < 100; ++t) params.weights[t] = 1;
   const Motion result = transferred(source, stats_of(bowed().made(200)), params).motion;
