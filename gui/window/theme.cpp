@@ -1,0 +1,180 @@
+#include "gui/window/theme.h"
+
+#include <array>
+
+namespace kinegraph {
+namespace {
+
+struct PortLook {
+  std::string_view type;
+  QRgb dark, light;
+  Theme::Shape shape;
+};
+// Told apart by colour-blind eyes as well: lightness differs between neighbours, and every type has a shape.
+constexpr std::array<PortLook, 8> ports{{
+    {"Motion", 0xff5fb8e8, 0xff1b78ad, Theme::Shape::circle},
+    {"Points", 0xffb5e36b, 0xff5c8a12, Theme::Shape::ring},
+    {"Warp", 0xffe8b04a, 0xffa86e00, Theme::Shape::diamond},
+    {"Stats", 0xffd58cf0, 0xff8a3aac, Theme::Shape::square},
+    {"Components", 0xfff07f9b, 0xffb82e52, Theme::Shape::hexagon},
+    {"Contacts", 0xff63d6b4, 0xff10806a, Theme::Shape::bar},
+    {"Character", 0xfff2e08a, 0xff86740a, Theme::Shape::star},
+    {"Metrics", 0xffb9bfd0, 0xff565c70, Theme::Shape::triangle},
+}};
+
+Theme make_dark() {
+  Theme t;
+  t.dark = true;
+  t.window = 0xff1e2127;
+  t.panel = 0xff262a31;
+  t.raised = 0xff333842;
+  t.line = 0xff3d434e;
+  t.text = 0xffe4e7ec;
+  t.faint_text = 0xff9aa3b0;
+  t.accent = 0xff4da3ff;
+  t.selection = 0xff2f5f94;
+  t.canvas = 0xff191c21;
+  t.grid = 0xff23272e;
+  t.node = 0xff2c313a;
+  t.node_title = 0xff39404c;
+  t.node_line = 0xff0f1114;
+  t.wire = 0xff8a93a1;
+  t.good = 0xff5ac57a;
+  t.running = 0xff4da3ff;
+  t.warning = 0xffe8b04a;
+  t.error = 0xffef6461;
+  t.missing = 0xffc76bd6;
+  t.ground = 0xff2a2e35;
+  t.ground_line = 0xff3a404a;
+  t.sky = 0xff20242b;
+  t.bone = 0xffd9dde4;
+  t.joint = 0xffaab2be;
+  t.left = 0xff6fb7e9;
+  t.right = 0xffeb8f6b;
+  t.second = 0xff9fd48a;
+  t.shadow = QColor(0, 0, 0, 110);
+  t.stretch_short = 0xff3f7fe0;
+  t.stretch_long = 0xffe5533d;
+  return t;
+}
+
+Theme make_light() {
+  Theme t;
+  t.dark = false;
+  t.window = 0xffeef0f3;
+  t.panel = 0xfff8f9fb;
+  t.raised = 0xffffffff;
+  t.line = 0xffcdd2da;
+  t.text = 0xff1d2229;
+  t.faint_text = 0xff5d6673;
+  t.accent = 0xff1668c7;
+  t.selection = 0xffbcd8f7;
+  t.canvas = 0xffe4e7ec;
+  t.grid = 0xffd9dde3;
+  t.node = 0xfffbfcfd;
+  t.node_title = 0xffe9edf2;
+  t.node_line = 0xffa9b1bd;
+  t.wire = 0xff6c7683;
+  t.good = 0xff21884a;
+  t.running = 0xff1668c7;
+  t.warning = 0xffa86e00;
+  t.error = 0xffc23330;
+  t.missing = 0xff8a3aac;
+  t.ground = 0xffdfe3e8;
+  t.ground_line = 0xffc6ccd4;
+  t.sky = 0xfff1f3f6;
+  t.bone = 0xff4a525e;
+  t.joint = 0xff6a7480;
+  t.left = 0xff1b78ad;
+  t.right = 0xffb9562c;
+  t.second = 0xff4d8a35;
+  t.shadow = QColor(20, 30, 40, 60);
+  t.stretch_short = 0xff2b62c0;
+  t.stretch_long = 0xffc23a26;
+  return t;
+}
+
+}  // namespace
+
+QColor Theme::port(std::string_view type) const {
+  for (const PortLook& look : ports)
+    if (look.type == type) return QColor::fromRgb(dark ? look.dark : look.light);
+  return wire;
+}
+
+Theme::Shape Theme::shape(std::string_view type) {
+  for (const PortLook& look : ports)
+    if (look.type == type) return look.shape;
+  return Shape::circle;
+}
+
+QPalette Theme::palette() const {
+  QPalette p;
+  p.setColor(QPalette::Window, window);
+  p.setColor(QPalette::WindowText, text);
+  p.setColor(QPalette::Base, panel);
+  p.setColor(QPalette::AlternateBase, raised);
+  p.setColor(QPalette::Text, text);
+  p.setColor(QPalette::PlaceholderText, faint_text);
+  p.setColor(QPalette::Button, raised);
+  p.setColor(QPalette::ButtonText, text);
+  p.setColor(QPalette::BrightText, error);
+  p.setColor(QPalette::ToolTipBase, raised);
+  p.setColor(QPalette::ToolTipText, text);
+  p.setColor(QPalette::Highlight, selection);
+  p.setColor(QPalette::HighlightedText, text);
+  p.setColor(QPalette::Link, accent);
+  p.setColor(QPalette::Light, raised.lighter(115));
+  p.setColor(QPalette::Midlight, raised);
+  p.setColor(QPalette::Mid, line);
+  p.setColor(QPalette::Dark, line.darker(120));
+  p.setColor(QPalette::Shadow, shadow);
+  for (auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
+    p.setColor(QPalette::Disabled, role, faint_text);
+  return p;
+}
+
+QString Theme::style_sheet() const {
+  const auto c = [](const QColor& color) { return color.name(); };
+  return QString(R"(
+QMainWindow::separator { background: %1; width: 4px; height: 4px; }
+QMainWindow::separator:hover { background: %5; }
+QDockWidget { titlebar-close-icon: none; font-weight: 600; color: %4; }
+QDockWidget::title { background: %1; padding: 6px 8px; border-bottom: 1px solid %3; }
+QToolTip { background: %2; color: %4; border: 1px solid %3; padding: 4px; }
+QMenuBar { background: %1; } QMenuBar::item { padding: 4px 10px; background: transparent; }
+QMenuBar::item:selected, QMenu::item:selected { background: %6; color: %4; }
+QMenu { background: %2; border: 1px solid %3; padding: 4px; } QMenu::item { padding: 5px 28px 5px 12px; border-radius: 3px; }
+QMenu::separator { height: 1px; background: %3; margin: 4px 8px; }
+QToolBar { background: %1; border: none; border-bottom: 1px solid %3; spacing: 4px; padding: 3px 6px; }
+QToolButton { border: 1px solid transparent; border-radius: 4px; padding: 4px 8px; }
+QToolButton:hover { background: %2; } QToolButton:checked { background: %6; }
+QPushButton { background: %2; border: 1px solid %3; border-radius: 4px; padding: 5px 14px; }
+QPushButton:hover { border-color: %5; } QPushButton:default { border-color: %5; } QPushButton:disabled { color: %7; }
+QLineEdit, QPlainTextEdit, QSpinBox, QDoubleSpinBox, QComboBox { background: %8; border: 1px solid %3; border-radius: 4px; padding: 3px 6px; selection-background-color: %6; }
+QComboBox::drop-down { border: none; width: 18px; }
+QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QTreeView:focus, QListView:focus, QTableView:focus, QSlider:focus { border: 1px solid %5; }
+QTreeView, QListView, QTableView { background: %8; border: 1px solid %3; border-radius: 4px; }
+QHeaderView::section { background: %1; border: none; border-bottom: 1px solid %3; padding: 4px 6px; }
+QTabBar::tab { padding: 6px 12px; border: none; border-bottom: 2px solid transparent; color: %7; }
+QTabBar::tab:selected { border-bottom-color: %5; color: %4; }
+QStatusBar { background: %1; border-top: 1px solid %3; }
+QScrollBar:vertical { width: 10px; background: transparent; } QScrollBar:horizontal { height: 10px; background: transparent; }
+QScrollBar::handle { background: %3; border-radius: 5px; min-height: 24px; min-width: 24px; } QScrollBar::handle:hover { background: %7; }
+QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
+QProgressBar { background: %8; border: 1px solid %3; border-radius: 4px; text-align: center; } QProgressBar::chunk { background: %6; border-radius: 3px; }
+)")
+      .arg(c(window), c(raised), c(line), c(text), c(accent), c(selection), c(faint_text), c(panel));
+}
+
+const Theme& dark_theme() {
+  static const Theme theme = make_dark();
+  return theme;
+}
+
+const Theme& light_theme() {
+  static const Theme theme = make_light();
+  return theme;
+}
+
+}  // namespace kinegraph
