@@ -4,20 +4,6 @@
 
 namespace kinegraph {
 
-namespace {
-
-Vec3 reflected(Vec3 v, Vec3 across) {
-  return v - 2 * dot(v, across) * across;
-}
-
-// M R M for the reflection M: the axis is reflected and the turn goes the other way round.
-Quat reflected(Quat q, Vec3 across) {
-  Vec3 axis = -reflected(Vec3{q.x, q.y, q.z}, across);
-  return {axis.x, axis.y, axis.z, q.w};
-}
-
-}  // namespace
-
 Motion mirrored(const Motion& motion, const Sides& sides, Work& work) {
   const Skeleton& skeleton = motion.skeleton();
   RestPose rest = rest_pose(skeleton);
@@ -38,8 +24,9 @@ Motion mirrored(const Motion& motion, const Sides& sides, Work& work) {
     auto from = world.orientation(source);
     auto to = result.rotation(j);
     Quat from_rest = inverse(rest.orientations[source]);
+    Quat to_rest = sides.frames[j] * rest.orientations[j];
     for (std::size_t t = 0; t < frames; ++t) {
-      turned[j][t] = reflected(from[t] * from_rest, sides.across) * rest.orientations[j];
+      turned[j][t] = reflected(from[t] * from_rest, sides.across) * to_rest;
       to.set(t, normalized(inverse(parent < 0 ? skeleton.above : turned[parent][t]) * turned[j][t]));
     }
     make_continuous(to.x, to.y, to.z, to.w);
@@ -55,7 +42,7 @@ Motion mirrored(const Motion& motion, const Sides& sides, Work& work) {
     // What the partner moved away from its offset, at rest in world, is what this one moves, reflected.
     int source_parent = skeleton.joints[source].parent;
     Quat to_world = source_parent < 0 ? skeleton.above : rest.orientations[source_parent];
-    Quat to_local = inverse(rest.orientations[parent]);
+    Quat to_local = inverse(sides.frames[parent] * rest.orientations[parent]);
     for (std::size_t t = 0; t < frames; ++t) {
       Vec3 moved = motion.local_offset(source, t) - skeleton.joints[source].offset;
       place.set(

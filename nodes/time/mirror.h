@@ -13,7 +13,14 @@ namespace kinegraph {
 struct Sides {
   std::vector<int> partner;  // an involution
   Vec3 across{1, 0, 0};  // unit, horizontal, world: from the right side to the left; the plane is across it
+  // For a rest pose that is no mirror image of itself (local axes that differ from side to side, or a spine
+  // along x): the turn, in rest world, that takes the ways from a joint to its children to the reflections of
+  // its partner's ways. The identity for a symmetric one.
+  std::vector<Quat> frames;
 };
+Vec3 reflected(Vec3 v, Vec3 across);
+// M R M for the reflection M: the axis is reflected, and the turn goes the other way round.
+Quat reflected(Quat q, Vec3 across);
 
 // `pairs`: "LEFT=RIGHT" each; joints they don't name are paired by name (Left/Right, l/r), and where no name
 // says anything, by the rest pose. Joints beside the middle without a partner are named in one warning

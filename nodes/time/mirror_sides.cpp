@@ -4,9 +4,19 @@
 #include <cmath>
 
 #include "graph/diagnostic.h"
+#include "nodes/motion/elementary.h"
 #include "nodes/time/mirror.h"
 
 namespace kinegraph {
+
+Vec3 reflected(Vec3 v, Vec3 across) {
+  return v - 2 * dot(v, across) * across;
+}
+
+Quat reflected(Quat q, Vec3 across) {
+  Vec3 axis = -reflected(Vec3{q.x, q.y, q.z}, across);
+  return {axis.x, axis.y, axis.z, q.w};
+}
 
 namespace {
 
@@ -24,10 +34,6 @@ int named_partner(const Skeleton& skeleton, const std::string& name) {
     }
   }
   return -1;
-}
-
-Vec3 reflected(Vec3 v, Vec3 across) {
-  return v - 2 * dot(v, across) * across;
 }
 
 // From right to left: of all pairs, else of the legs' shape, else x. Close to an axis it is that axis.
@@ -77,6 +83,65 @@ void pair_by_shape(const Skeleton& skeleton, const RestPose& pose, Vec3 across, 
     partner[j] = best;
     partner[best] = j;
     done[j] = done[best] = true;
+  }
+}
+
+// The turn, starting from the parent's, that takes the ways to the children of `joint` to the reflections of
+// the ways to theirs from the partner: the longest way exactly, the others as well as turning about it can.
+Quat frame_of(const Skeleton& skeleton, const RestPose& pose, const Sides& sides, int joint, Quat start) {
+  struct Ways {
+    Vec3 from, to;
+    bool middle;  // of a joint in the middle to one in the middle: exact before any to a side
+  };
+  std::vector<Ways> ways;
+  double size = 0;
+  for (int child : skeleton.children(joint)) {
+    int other = sides.partner[child];
+    if (skeleton.joints[other].parent != sides.partner[joint]) continue;
+    Vec3 from = pose.positions[child] - pose.positions[joint];
+    Vec3 to = reflected(pose.positions[other] - pose.positions[sides.partner[joint]], sides.across);
+    if (norm(from) == 0 || norm(to) == 0) continue;
+    ways.push_back({from, to, other == child});
+    size += norm(from) * norm(to);
+  }
+  if (ways.empty()) return start;
+  const Ways& main = *std::max_element(ways.begin(), ways.end(), [](const Ways& a, const Ways& b) {
+    return a.middle != b.middle ? b.middle : norm(a.from) < norm(b.from);
+  });
+  Vec3 axis = normalized(main.to);
+  Vec3 now = normalized(rotate(start, main.from));
+  // Straight back: about an axis in the mirror's plane, so that the turn undoes itself in the mirror.
+  bool back = norm(axis + now) < 1e-6 && norm(cross(axis, {0, 1, 0})) > 0.1;
+  Quat frame =
+      (back ? axis_angle(normalized(Vec3{0, 1, 0} - axis.y * axis), pi) : smallest_turn(now, axis)) * start;
+  double sin = 0, cos = 0;
+  for (const Ways& way : ways) {
+    Vec3 a = rotate(frame, way.from), b = way.to;
+    a -= dot(a, axis) * axis;
+    b -= dot(b, axis) * axis;
+    sin += dot(axis, cross(a, b));
+    cos += dot(a, b);
+  }
+  bool tells = std::sqrt(sin * sin + cos * cos) > 1e-3 * size;  // there are ways aside from the axis
+  if (tells) frame = axis_angle(axis, arc_tangent2(sin, cos)) * frame;
+  return frame;
+}
+
+void find_frames(const Skeleton& skeleton, const RestPose& pose, Sides& sides) {
+  sides.frames.assign(skeleton.joints.size(), Quat{});
+  for (int j = 0; j < skeleton.size(); ++j) {
+    int other = sides.partner[j], parent = skeleton.joints[j].parent;
+    if (other < j) {  // mirroring twice must undo it
+      sides.frames[j] = inverse(reflected(sides.frames[other], sides.across));
+      continue;
+    }
+    Quat frame = frame_of(skeleton, pose, sides, j, parent < 0 ? Quat{} : sides.frames[parent]);
+    if (other == j) {  // likewise: only turns about axes in the mirror's plane do
+      Vec3 v{frame.x, frame.y, frame.z};
+      v -= dot(v, sides.across) * sides.across;
+      frame = normalized(Quat{v.x, v.y, v.z, frame.w});
+    }
+    sides.frames[j] = frame;
   }
 }
 
@@ -134,10 +199,15 @@ Sides find_sides(const Skeleton& skeleton, const std::vector<std::string>& pairs
   sides.across = direction_across(skeleton, pose, sides.partner);
   if (!names_say) pair_by_shape(skeleton, pose, sides.across, sides.partner);
 
+  find_frames(skeleton, pose, sides);
+
+  // A rest pose that shows no body doesn't say who stands beside the middle.
+  bool shows_body =
+      std::all_of(sides.frames.begin(), sides.frames.end(), [](Quat q) { return turn(q) < pi / 6; });
   std::vector<std::string> alone;
   for (int j = 0; j < skeleton.size(); ++j) {
     double beside = std::fabs(dot(pose.positions[j] - pose.positions[0], sides.across));
-    if (sides.partner[j] == j && !told[j] && beside > 0.05 * rest_height(skeleton))
+    if (shows_body && sides.partner[j] == j && !told[j] && beside > 0.05 * rest_height(skeleton))
       alone.push_back(skeleton.joints[j].name);
   }
   if (!alone.empty()) {

@@ -60,10 +60,15 @@ TEST_F(Mirror, twice_is_the_motion_itself) {
   }
 }
 
-TEST_F(Mirror, of_the_rest_pose_is_the_rest_pose) {
-  Motion rest = awkward().empty_like(2);
-  for (std::size_t t = 0; t < 2; ++t) rest.translation(0).set(t, {});
-  Motion out = mirrored(rest, find_sides(rest.skeleton(), {}, work), work);
+TEST_F(Mirror, of_a_symmetric_rest_pose_is_that_pose) {
+  Skeleton skeleton = sample_skeleton();
+  skeleton.above = axis_angle({1, 0, 0}, -pi / 2);
+  skeleton.joints[0].rest = axis_angle({1, 0, 0}, pi / 2);
+  skeleton.joints[0].offset = {};
+  for (const char* arm : {"LeftArm", "RightArm"})
+    skeleton.joints[skeleton.find(arm)].rest = axis_angle({0, 0, 1}, arm[0] == 'L' ? -1 : 1);
+  Motion rest = sample_motion(2, 120, 1, skeleton).empty_like(2);
+  Motion out = mirrored(rest, find_sides(skeleton, {}, work), work);
   for (int j = 0; j < rest.joints(); ++j) EXPECT_LT(turn(out.rotation(j)[1], rest.rotation(j)[1]), 1e-14);
 }
 
@@ -104,6 +109,49 @@ TEST_F(Mirror, takes_pairs_as_told_and_the_rest_by_name) {
   EXPECT_EQ(sides.partner[neck], head);
   EXPECT_EQ(sides.partner[head], neck);
   EXPECT_EQ(sides.partner[arm], other);
+}
+
+// As some exporters write it: every bone along x of its own axes, backwards on the right; the spine as well.
+// The rest pose shows no body.
+Skeleton bones_along_x() {
+  Skeleton s;
+  auto add = [&](const char* name, const char* parent, Vec3 offset) {
+    s.joints.push_back({name, s.joints.empty() ? -1 : s.find(parent), offset, {}});
+  };
+  add("root", "", {0, 0, 0});
+  add("Hips", "root", {0, 0.94, -0.03});
+  add("Spine", "Hips", {0.16, 0, 0});
+  add("Chest", "Spine", {0.09, -0.004, 0});
+  add("Neck", "Chest", {0.16, 0, 0});
+  add("Arm_L", "Chest", {0.13, -0.002, 0.05});
+  add("Hand_L", "Arm_L", {0.24, 0, 0});
+  add("Arm_R", "Chest", {0.13, -0.002, -0.05});
+  add("Hand_R", "Arm_R", {-0.24, 0, 0});
+  add("UpperLeg_L", "Hips", {-0.02, -0.065, 0});
+  add("LowerLeg_L", "UpperLeg_L", {0.39, 0, 0});
+  add("Foot_L", "LowerLeg_L", {0.41, 0, 0});
+  add("UpperLeg_R", "Hips", {-0.02, 0.065, 0});
+  add("LowerLeg_R", "UpperLeg_R", {-0.39, 0, 0});
+  add("Foot_R", "LowerLeg_R", {-0.41, 0, 0});
+  return s;
+}
+
+TEST_F(Mirror, of_a_rest_pose_that_is_no_body_still_reflects_every_joint) {
+  Motion motion = sample_motion(20, 120, 6, bones_along_x(), 1.5).with_translation(6);
+  for (std::size_t t = 0; t < 20; ++t) motion.translation(6).y[t] += 0.01 * static_cast<double>(t);
+  Sides sides = find_sides(motion.skeleton(), {}, work);
+  Motion out = mirrored(motion, sides, work), back = mirrored(out, sides, work);
+  EXPECT_TRUE(work.reported.empty());
+  WorldMotion before = world_motion(motion), after = world_motion(out);
+  for (int j = 0; j < motion.joints(); ++j)
+    for (std::size_t t = 0; t < 20; ++t) {
+      // The spine's small bend isn't mirrored; left wrong way round a joint would be off by tenths of a
+      // metre.
+      Vec3 p = before.position(sides.partner[j])[t];
+      EXPECT_LT(norm(after.position(j)[t] - reflected(p, sides.across)), 1e-13)
+          << motion.skeleton().joints[j].name;
+      EXPECT_LT(turn(back.rotation(j)[t], motion.rotation(j)[t]), 1e-13);
+    }
 }
 
 NodeInMemory mirror() {
