@@ -2,6 +2,7 @@
 
 #include "graph/builtin_nodes.h"
 #include "nodes/judge/metrics.h"
+#include "nodes/motion/character.h"
 #include "nodes/motion/contacts.h"
 #include "nodes/motion/motion.h"
 #include "nodes/motion/points.h"
@@ -39,6 +40,8 @@ Registry all_nodes() {
                          .decode = decode_points,
                          .convert_from = "Motion",
                          .convert = points_of_motion});
+  registry.add(
+      ValueType{.name = "Character", .help = "a skinned mesh on a skeleton", .decode = decode_character});
   registry.add(ValueType{.name = "Warp", .help = "a time warp between two motions", .decode = decode_warp});
   registry.add(ValueType{
       .name = "Stats", .help = "the statistics that carry a motion's style", .decode = decode_stats});

@@ -14,6 +14,7 @@ inline const std::vector<FilePort>& file_ports() {
   static const std::vector<FilePort> ports = {
       {"motion", "Motion", "A motion, in metres and Y up."},
       {"points", "Points", "Labelled points over time, in metres and Y up."},
+      {"character", "Character", "A skinned mesh on its skeleton."},
       {"stats", "Stats", "The statistics that carry a motion's style."},
       {"warp", "Warp", "A time warp between two motions."},
       {"contacts", "Contacts", "When which part of a foot is planted."},
