@@ -1,0 +1,115 @@
+#include <algorithm>
+
+#include "graph/compute.h"
+#include "graph/node_type.h"
+#include "nodes/components/ica.h"
+#include "nodes/motion/joint_pattern.h"
+#include "nodes/node_params.h"
+
+namespace kinegraph {
+namespace {
+
+IcaParams ica_params(const Params& params) {
+  IcaParams out;
+  out.components = static_cast<int>(params.integer("components"));
+  out.variance = params.number("variance");
+  out.rotate = params.text("method") != "pca";
+  out.fast_ica.symmetric = params.text("method") != "deflation";
+  const std::string& g = params.text("nonlinearity");
+  out.fast_ica.nonlinearity = g == "pow3"    ? Nonlinearity::pow3
+                              : g == "gauss" ? Nonlinearity::gauss
+                                             : Nonlinearity::logcosh;
+  out.fast_ica.tolerance = params.number("tolerance");
+  out.fast_ica.iterations = static_cast<int>(params.integer("iterations"));
+  out.seed = static_cast<std::uint64_t>(params.integer("seed"));
+  out.starts = static_cast<int>(params.integer("starts"));
+  return out;
+}
+
+template <class T>
+std::vector<std::shared_ptr<const T>> all_as(std::span<const ValuePtr> values) {
+  std::vector<std::shared_ptr<const T>> out;
+  for (const ValuePtr& value : values)
+    if (auto one = std::dynamic_pointer_cast<const T>(value)) out.push_back(std::move(one));
+  return out;
+}
+
+void decompose_inputs(Compute& node) {
+  const Params& params = node.params();
+  const auto values = node.values("motions");
+  const auto motions = all_as<Motion>(values);
+  const auto points = all_as<Points>(values);
+  if (!motions.empty() && !points.empty())
+    throw Failure(error("mixed-inputs", "some inputs are motions, others points")
+                      .at_port("motions")
+                      .hinting("link clips of one kind"));
+  if (!motions.empty()) {
+    for (const auto& motion : motions) check_same_rate(motions.front()->fps(), motion->fps(), "motions", "motions");
+    const auto chosen =
+        chosen_joints(params.text("joints"), motions.front()->skeleton(), "joints", node.work());
+    node.output("components", components_of_motions(motions, representation_from(params.text("representation")),
+                                                    params.boolean("heading"), chosen, ica_params(params),
+                                                    node.work()));
+    return;
+  }
+  for (const auto& one : points) check_same_rate(points.front()->fps, one->fps, "motions", "motions");
+  const std::string& how = params.text("stabilise");
+  const auto chosen = chosen_names(params.text("joints"), points.front()->labels, "joints", node.work());
+  node.output("components",
+              components_of_points(points,
+                                   how == "centroid" ? Stabilise::centroid
+                                   : how == "rigid"  ? Stabilise::rigid
+                                                     : Stabilise::none,
+                                   chosen, ica_params(params), node.work()));
+}
+
+}  // namespace
+
+NodeType ica_node() {
+  NodeType type;
+  type.name = "ICA";
+  type.category = "components";
+  type.help =
+      "Splits one or several clips, joined, into independent components: signals over time, each moving the "
+      "whole body in its own way.";
+  type.source = "Shapiro et al. 2006 §3; Cao et al. 2003 §3, eq. 2; Hyvärinen 1999";
+  type.keywords = {"independent", "component", "analysis", "pca", "decompose", "style"};
+  type.list_input("motions", {"Motion", "Points"}, "Clips, joined frame after frame.");
+  type.output("components", "Components", "Mean, mixing matrix and signals of the components.");
+  type.param("representation",
+             choice({{"points", "joint positions, relative to the root"},
+                     {"quaternions", "joint rotations as unit quaternions"},
+                     {"euler", "joint rotations as Euler angles in the file's order"},
+                     {"logarithm", "joint rotations as rotation vectors from their mean"}}),
+             "Numbers that stand for a pose. Ignored for Points.");
+  type.param("components", integer(0).between(0, 1000),
+             "How many; 0 = enough for `variance`. The papers use 3 to 5.");
+  type.param("variance", number(0.95).between(0.01, 1).slider(0.8, 1),
+             "Part of the variance to keep where `components` is 0.");
+  type.param("nonlinearity",
+             choice({{"logcosh", "tanh: a good start for all"},
+                     {"pow3", "kurtosis: fast, minds outliers"},
+                     {"gauss", "for signals that are mostly at rest"}}),
+             "What is taken as a measure of independence.");
+  type.param("method",
+             choice({{"symmetric", "all components together"},
+                     {"deflation", "one after the other"},
+                     {"pca", "principal components, for comparison"}}),
+             "How the components are found.");
+  type.param("seed", integer(0).between(0, 9007199254740991.0),
+             "0 = a fixed sequence of first guesses; others make their own.");
+  type.param("starts", integer(8).between(1, 1000), "First guesses tried; the most independent result is kept.");
+  type.param("tolerance", number(1e-4).between(1e-15, 0.5), "Change of a component below which it is found.");
+  type.param("iterations", integer(200).between(1, 100000), "Most rounds of one start.");
+  type.param("heading", boolean(true), "Takes the walking direction out, and puts it back later.");
+  type.param("stabilise",
+             choice({{"none", "points as they are"},
+                     {"centroid", "the mean of `joints` is taken out"},
+                     {"rigid", "the rigid motion of `joints` is taken out"}}),
+             "For Points: what is taken out of every frame before.");
+  add_joints_param(type);
+  type.compute = decompose_inputs;
+  return type;
+}
+
+}  // namespace kinegraph
