@@ -1,6 +1,7 @@
 #include "nodes/all_nodes.h"
 
 #include "graph/builtin_nodes.h"
+#include "nodes/components/components.h"
 #include "nodes/judge/metrics.h"
 #include "nodes/motion/character.h"
 #include "nodes/motion/contacts.h"
@@ -13,6 +14,7 @@ namespace kinegraph {
 
 // One line a type: the function is defined in NAME_node.cpp of its family's folder.
 NodeType gait_node();
+NodeType ica_node();
 NodeType detect_contacts_node();
 NodeType footskate_node();
 NodeType quat_stats_node();
@@ -48,7 +50,11 @@ Registry all_nodes() {
   registry.add(ValueType{
       .name = "Contacts", .help = "when which part of a foot is planted", .decode = decode_contacts});
   registry.add(ValueType{.name = "Metrics", .help = "named numbers", .decode = decode_metrics});
+  registry.add(ValueType{.name = "Components",
+                         .help = "independent components of one or several clips",
+                         .decode = decode_components});
   registry.add(gait_node());
+  registry.add(ica_node());
   registry.add(detect_contacts_node());
   registry.add(footskate_node());
   registry.add(quat_stats_node());

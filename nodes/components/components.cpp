@@ -37,6 +37,10 @@ void encode_space(Encoder& out, const ChannelSpace& space) {
   encode_texts(out, space.labels);
   encode_list(out, space.reference, [&](Quat q) { encode(out, q); });
   encode_texts(out, space.orders);
+  encode_texts(out, space.map);
+  out.i64(static_cast<int>(space.stabilise));
+  encode_texts(out, space.stable);
+  encode_list(out, space.shape, [&](Vec3 v) { encode(out, v); });
 }
 ChannelSpace decode_space(Decoder& in) {
   ChannelSpace space;
@@ -48,6 +52,10 @@ ChannelSpace decode_space(Decoder& in) {
   space.labels = decode_texts(in);
   space.reference = decode_list<Quat>(in, [&] { return decode_quat(in); });
   space.orders = decode_texts(in);
+  space.map = decode_texts(in);
+  space.stabilise = static_cast<Stabilise>(in.i64());
+  space.stable = decode_texts(in);
+  space.shape = decode_list<Vec3>(in, [&] { return decode_vec3(in); });
   return space;
 }
 
@@ -66,7 +74,8 @@ std::size_t Components::bytes() const {
   std::size_t sum =
       sizeof(*this) + 8 * (mixing.data.size() + unmixing.data.size() + signals.data.size() + mean.size());
   for (const ComponentSegment& segment : segments)
-    sum += segment.motion ? segment.motion->bytes() : segment.points->bytes();
+    sum +=
+        (segment.motion ? segment.motion->bytes() : segment.points->bytes()) + 8 * segment.added.data.size();
   return sum;
 }
 
@@ -85,6 +94,7 @@ void Components::encode(Encoder& out) const {
       segment.motion->encode(out);
     else
       segment.points->encode(out);
+    encode_rows(out, segment.added);
   });
   encode_list(out, groups, [&](const ComponentGroup& group) {
     out.text(group.name);
@@ -120,6 +130,7 @@ ValuePtr decode_components(Decoder& in) {
       segment.motion = std::dynamic_pointer_cast<const Motion>(decode_motion(in));
     else
       segment.points = std::dynamic_pointer_cast<const Points>(decode_points(in));
+    segment.added = decode_rows(in);
     return segment;
   });
   value->groups = decode_list<ComponentGroup>(in, [&] {

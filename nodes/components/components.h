@@ -1,4 +1,5 @@
-// What independent component analysis finds in one or several clips [Shapiro §3, Cao §3, eq. 2]: x = E{x} + P A u.
+// What independent component analysis finds in one or several clips [Shapiro §3, Cao §3, eq. 2]: x = E{x} + P
+// A u.
 #pragma once
 #include <memory>
 #include <string>
@@ -10,12 +11,14 @@
 
 namespace kinegraph {
 
-// One input clip among the joined ones: its frames [start, end) of the signals, and the clip itself, which is the base
-// of what is built from it (path, heading, bones, what the components leave out). Exactly one of the two is there.
+// One input clip among the joined ones: its frames [start, end) of the signals, and the clip itself, which is
+// the base of what is built from it (path, heading, bones, what the components leave out). Exactly one of the
+// two is there.
 struct ComponentSegment {
   std::size_t start = 0, end = 0;
   std::shared_ptr<const Motion> motion;
   std::shared_ptr<const Points> points;
+  Rows added;  // D x frames: what edits added that no signal says; empty: nothing
   std::size_t frames() const { return end - start; }
 };
 
@@ -29,11 +32,11 @@ class Components final : public Value {
  public:
   ChannelSpace space;
   double fps = 120;
-  std::vector<double> mean;     // D: E{x}
-  Rows mixing;                  // D x k: P A
-  Rows unmixing;                // k x D: (P A)⁺, u = unmixing (x - mean)
-  Rows signals;                 // k x T over all segments; unit variance
-  std::vector<double> shares;   // k: each component's part of the whole variance
+  std::vector<double> mean;    // D: E{x}
+  Rows mixing;                 // D x k: P A
+  Rows unmixing;               // k x D: (P A)⁺, u = unmixing (x - mean)
+  Rows signals;                // k x T over all segments; unit variance
+  std::vector<double> shares;  // k: each component's part of the whole variance
   std::vector<ComponentSegment> segments;
   std::vector<ComponentGroup> groups;
   // How they were found.

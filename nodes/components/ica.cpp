@@ -55,8 +55,8 @@ Starts run_starts(const Rows& z, const IcaParams& params, Work& work) {
   return out;
 }
 
-// A component is unique when every converged run within 2 % of the best negentropy has it too. On whitened axes the
-// correlation of two signals is the product of their rows.
+// A component is unique when every converged run within 2 % of the best negentropy has it too. On whitened
+// axes the correlation of two signals is the product of their rows.
 std::vector<bool> uniqueness(const Starts& starts) {
   const Rows& w = starts.best.w;
   std::vector<bool> unique(w.rows, true);
@@ -84,7 +84,8 @@ Rows canonical(const Rows& rotation, const Whitened& white, std::vector<bool>& u
     for (std::size_t d = 0; d < mixing.rows; ++d) energy[i] += mixing(d, i) * mixing(d, i);
   std::vector<std::size_t> order(u.rows);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return energy[a] > energy[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return energy[a] > energy[b]; });
   Rows out(rotation.rows, rotation.columns);
   std::vector<bool> unique_in_order;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -108,8 +109,8 @@ std::string list_of(const std::vector<bool>& unique) {
   return text;
 }
 
-Components assembled(ChannelSpace space, std::vector<ComponentSegment> segments, const Rows& channels, double fps,
-                     const IcaParams& params, Work& work) {
+Components assembled(ChannelSpace space, std::vector<ComponentSegment> segments, const Rows& channels,
+                     double fps, const IcaParams& params, Work& work) {
   Decomposition found = decompose(channels, params, work);
   Components out;
   out.space = std::move(space);
@@ -155,8 +156,9 @@ std::vector<double> last_column(const Rows& rows) {
 
 Decomposition decompose(const Rows& channels, const IcaParams& params, Work& work) {
   if (channels.columns < 2)
-    throw Failure(error("too-few-frames", fmt::format("{} frame(s) are too few to decompose", channels.columns))
-                      .hinting("give clips of at least two frames"));
+    throw Failure(
+        error("too-few-frames", fmt::format("{} frame(s) are too few to decompose", channels.columns))
+            .hinting("give clips of at least two frames"));
   const Principal principal = principal_components(channels, work);
   // What stays of an unchanging channel of size s after its mean is taken out is rounding, some 1e-16 s.
   double largest = 0;
@@ -167,10 +169,12 @@ Decomposition decompose(const Rows& channels, const IcaParams& params, Work& wor
   const auto k = params.components > 0 ? static_cast<std::size_t>(params.components)
                                        : count_for(principal, params.variance);
   if (k > principal.rank)
-    throw Failure(error("too-many-components",
-                        fmt::format("{} components are wanted, but the clips span only {}", k, principal.rank))
-                      .at_param("components")
-                      .hinting(fmt::format("ask for at most {}, or 0 for as many as `variance` needs", principal.rank)));
+    throw Failure(
+        error("too-many-components",
+              fmt::format("{} components are wanted, but the clips span only {}", k, principal.rank))
+            .at_param("components")
+            .hinting(
+                fmt::format("ask for at most {}, or 0 for as many as `variance` needs", principal.rank)));
   const Whitened white = whiten(channels, principal, k, work);
 
   Decomposition out;
@@ -197,10 +201,11 @@ Decomposition decompose(const Rows& channels, const IcaParams& params, Work& wor
     out.shares.push_back(energy / whole);
   }
   if (!out.converged)
-    work.report(warning("not-converged",
-                        fmt::format("the change of the components is still {:.2g} after {} iterations; wanted {:.2g}",
-                                    out.reached, out.iterations, params.fast_ica.tolerance))
-                    .hinting("raise `iterations` or `tolerance`, or ask for fewer `components`"));
+    work.report(
+        warning("not-converged",
+                fmt::format("the change of the components is still {:.2g} after {} iterations; wanted {:.2g}",
+                            out.reached, out.iterations, params.fast_ica.tolerance))
+            .hinting("raise `iterations` or `tolerance`, or ask for fewer `components`"));
   if (const std::string others = list_of(out.unique); !others.empty())
     work.report(warning("not-unique", "the components " + others +
                                           " are not unique: other starts find others that are as independent")
@@ -208,19 +213,33 @@ Decomposition decompose(const Rows& channels, const IcaParams& params, Work& wor
   return out;
 }
 
-Components components_of_motions(const std::vector<std::shared_ptr<const Motion>>& motions,
-                                 Representation representation, bool heading, const std::vector<bool>& chosen,
+Components components_of_motions(ChannelSpace space,
+                                 const std::vector<std::shared_ptr<const Motion>>& motions,
                                  const IcaParams& params, Work& work) {
-  ChannelSpace space = space_of_motions(representation, motions, chosen, heading, work);
   std::vector<Rows> parts;
   std::vector<ComponentSegment> segments;
   std::size_t at = 0;
   for (const auto& motion : motions) {
-    parts.push_back(channels_of(space, *motion, parts.empty() ? std::vector<double>{} : last_column(parts.back()), work));
-    segments.push_back({at, at + motion->frames(), motion, nullptr});
+    parts.push_back(
+        channels_of(space, *motion, parts.empty() ? std::vector<double>{} : last_column(parts.back()), work));
+    segments.push_back({at, at + motion->frames(), motion, nullptr, {}});
     at += motion->frames();
   }
-  return assembled(std::move(space), std::move(segments), joined(parts), motions.front()->fps(), params, work);
+  return assembled(std::move(space), std::move(segments), joined(parts), motions.front()->fps(), params,
+                   work);
+}
+
+Components components_of_points(ChannelSpace space, const std::vector<std::shared_ptr<const Points>>& points,
+                                const IcaParams& params, Work& work) {
+  std::vector<Rows> parts;
+  std::vector<ComponentSegment> segments;
+  std::size_t at = 0;
+  for (const auto& one : points) {
+    parts.push_back(channels_of(space, *one, work));
+    segments.push_back({at, at + one->frames, nullptr, one, {}});
+    at += one->frames;
+  }
+  return assembled(std::move(space), std::move(segments), joined(parts), points.front()->fps, params, work);
 }
 
 }  // namespace kinegraph

@@ -1,5 +1,5 @@
-// Decomposes clips into independent components [Shapiro §3, Cao §3]: channels, principal components, FastICA from several
-// starts, and an order and signs that don't depend on chance.
+// Decomposes clips into independent components [Shapiro §3, Cao §3]: channels, principal components, FastICA
+// from several starts, and an order and signs that don't depend on chance.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -13,11 +13,11 @@
 namespace kinegraph {
 
 struct IcaParams {
-  int components = 0;       // 0 = as few as explain `variance`
+  int components = 0;  // 0 = as few as explain `variance`
   double variance = 0.95;
-  bool rotate = true;       // false: principal components as they are, for comparison
+  bool rotate = true;  // false: principal components as they are, for comparison
   FastIcaParams fast_ica;
-  std::uint64_t seed = 0;   // 0: the fixed sequence of starts
+  std::uint64_t seed = 0;  // 0: the fixed sequence of starts
   int starts = 8;
 };
 
@@ -31,18 +31,18 @@ struct Decomposition {
   double reached = 0, negentropy = 0;
   std::vector<bool> unique;
 };
-// Errors: "too-few-frames", "no-variance", "too-many-components" (naming the rank). Warnings: "not-converged",
-// "not-unique" (naming the components that other starts of nearly the same negentropy find otherwise).
-// Order: by share of variance. Sign: positive skewness where |skewness| > 0.3, else the largest |entry| of the mixing
-// column positive.
+// Errors: "too-few-frames", "no-variance", "too-many-components" (naming the rank). Warnings:
+// "not-converged", "not-unique" (naming the components that other starts of nearly the same negentropy find
+// otherwise). Order: by share of variance. Sign: positive skewness where |skewness| > 0.3, else the largest
+// |entry| of the mixing column positive.
 Decomposition decompose(const Rows& channels, const IcaParams& params, Work& work);
 
-// Joined clips of one kind and rate. `chosen`: joints of the first motion (ignored for Points).
-Components components_of_motions(const std::vector<std::shared_ptr<const Motion>>& motions,
-                                 Representation representation, bool heading, const std::vector<bool>& chosen,
+// Joined clips of one kind and rate, frame after frame. `space` is theirs (space_of_motions,
+// space_of_points).
+Components components_of_motions(ChannelSpace space,
+                                 const std::vector<std::shared_ptr<const Motion>>& motions,
                                  const IcaParams& params, Work& work);
-enum class Stabilise { none, centroid, rigid };
-Components components_of_points(const std::vector<std::shared_ptr<const Points>>& points, Stabilise stabilise,
-                                const std::vector<bool>& stable_labels, const IcaParams& params, Work& work);
+Components components_of_points(ChannelSpace space, const std::vector<std::shared_ptr<const Points>>& points,
+                                const IcaParams& params, Work& work);
 
 }  // namespace kinegraph

@@ -34,6 +34,14 @@ std::vector<std::shared_ptr<const T>> all_as(std::span<const ValuePtr> values) {
   return out;
 }
 
+// Inputs after the first that are other skeletons: rest poses that differ are told.
+void compare_skeletons(const ChannelSpace& space, const std::vector<std::shared_ptr<const Motion>>& motions,
+                       Work& work) {
+  for (const auto& motion : motions)
+    if (motion->shared_skeleton() != space.skeleton)
+      warn_about_partners(motion->skeleton(), *space.skeleton, joints_of(space, motion->skeleton()), work);
+}
+
 void decompose_inputs(Compute& node) {
   const Params& params = node.params();
   const auto values = node.values("motions");
@@ -44,23 +52,26 @@ void decompose_inputs(Compute& node) {
                       .at_port("motions")
                       .hinting("link clips of one kind"));
   if (!motions.empty()) {
-    for (const auto& motion : motions) check_same_rate(motions.front()->fps(), motion->fps(), "motions", "motions");
+    for (const auto& motion : motions)
+      check_same_rate(motions.front()->fps(), motion->fps(), "motions", "motions");
     const auto chosen =
         chosen_joints(params.text("joints"), motions.front()->skeleton(), "joints", node.work());
-    node.output("components", components_of_motions(motions, representation_from(params.text("representation")),
-                                                    params.boolean("heading"), chosen, ica_params(params),
-                                                    node.work()));
+    ChannelSpace space = space_of_motions(representation_from(params.text("representation")), motions, chosen,
+                                          params.boolean("heading"), params.texts("map"), node.work());
+    compare_skeletons(space, motions, node.work());
+    node.output("components",
+                components_of_motions(std::move(space), motions, ica_params(params), node.work()));
     return;
   }
   for (const auto& one : points) check_same_rate(points.front()->fps, one->fps, "motions", "motions");
   const std::string& how = params.text("stabilise");
   const auto chosen = chosen_names(params.text("joints"), points.front()->labels, "joints", node.work());
-  node.output("components",
-              components_of_points(points,
-                                   how == "centroid" ? Stabilise::centroid
-                                   : how == "rigid"  ? Stabilise::rigid
-                                                     : Stabilise::none,
-                                   chosen, ica_params(params), node.work()));
+  ChannelSpace space = space_of_points(points,
+                                       how == "centroid" ? Stabilise::centroid
+                                       : how == "rigid"  ? Stabilise::rigid
+                                                         : Stabilise::none,
+                                       chosen);
+  node.output("components", components_of_points(std::move(space), points, ica_params(params), node.work()));
 }
 
 }  // namespace
@@ -98,7 +109,8 @@ NodeType ica_node() {
              "How the components are found.");
   type.param("seed", integer(0).between(0, 9007199254740991.0),
              "0 = a fixed sequence of first guesses; others make their own.");
-  type.param("starts", integer(8).between(1, 1000), "First guesses tried; the most independent result is kept.");
+  type.param("starts", integer(8).between(1, 1000),
+             "First guesses tried; the most independent result is kept.");
   type.param("tolerance", number(1e-4).between(1e-15, 0.5), "Change of a component below which it is found.");
   type.param("iterations", integer(200).between(1, 100000), "Most rounds of one start.");
   type.param("heading", boolean(true), "Takes the walking direction out, and puts it back later.");
@@ -106,8 +118,9 @@ NodeType ica_node() {
              choice({{"none", "points as they are"},
                      {"centroid", "the mean of `joints` is taken out"},
                      {"rigid", "the rigid motion of `joints` is taken out"}}),
-             "For Points: what is taken out of every frame before.");
+             "For Points: what is taken out of every frame before, and put back later.");
   add_joints_param(type);
+  add_map_param(type);
   type.compute = decompose_inputs;
   return type;
 }

@@ -1,5 +1,6 @@
 #include "nodes/components/points_to_rotations.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -50,7 +51,8 @@ std::array<double, 4> largest_eigenvector(Matrix4 a) {
 }  // namespace
 
 Quat best_rotation(const std::vector<Vec3>& from, const std::vector<Vec3>& to, Quat prior) {
-  // S_ab = Σ from_a to_b. Three axes turned by the prior, with next to no weight, decide what collinear pairs leave open.
+  // S_ab = Σ from_a to_b. Three axes turned by the prior, with next to no weight, decide what collinear pairs
+  // leave open.
   double s[3][3] = {};
   double size = 0;
   const auto add = [&](Vec3 a, Vec3 b, double weight) {
@@ -61,7 +63,8 @@ Quat best_rotation(const std::vector<Vec3>& from, const std::vector<Vec3>& to, Q
     add(from[i], to[i], 1);
     size += norm(from[i]) * norm(to[i]);
   }
-  for (Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) add(axis, rotate(prior, axis), 1e-10 * size);
+  for (Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+    add(axis, rotate(prior, axis), 1e-10 * size);
   // Horn's matrix; its largest eigenvector is the quaternion (w, x, y, z).
   Matrix4 n{{{s[0][0] + s[1][1] + s[2][2], s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]},
              {s[1][2] - s[2][1], s[0][0] - s[1][1] - s[2][2], s[0][1] + s[1][0], s[2][0] + s[0][2]},
@@ -71,10 +74,18 @@ Quat best_rotation(const std::vector<Vec3>& from, const std::vector<Vec3>& to, Q
   return normalized(nearer(Quat{q[1], q[2], q[3], q[0]}, prior));
 }
 
-PointsToRotations::PointsToRotations(const Skeleton& skeleton, const std::vector<bool>& known)
+PointsToRotations::PointsToRotations(const Skeleton& skeleton, const std::vector<bool>& known,
+                                     const std::vector<bool>& turning)
     : skeleton_(skeleton), aims_(skeleton.joints.size()) {
-  for (int j = 0; j < skeleton.size(); ++j)
-    if (known[j]) collect(j, {}, known, aims_[j]);
+  for (int j = 0; j < skeleton.size(); ++j) {
+    if (!known[j]) continue;
+    std::vector<Aim> all, fixed;
+    collect(j, {}, known, all);
+    for (const Aim& aim : all)
+      if (std::none_of(aim.through.begin(), aim.through.end(), [&](int k) { return turning[k]; }))
+        fixed.push_back(aim);
+    aims_[j] = fixed.empty() ? all : fixed;
+  }
 }
 
 void PointsToRotations::collect(int joint, std::vector<int> through, const std::vector<bool>& known,

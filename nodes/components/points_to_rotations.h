@@ -1,4 +1,5 @@
-// Rotations of a skeleton from positions of its joints, so that edited points become a motion again [Shapiro §3.2].
+// Rotations of a skeleton from positions of its joints, so that edited points become a motion again [Shapiro
+// §3.2].
 #pragma once
 #include <vector>
 
@@ -8,15 +9,19 @@ namespace kinegraph {
 
 class PointsToRotations {
  public:
-  // `known`: joints whose positions the points give. The skeleton outlives this.
-  PointsToRotations(const Skeleton& skeleton, const std::vector<bool>& known);
+  // `known`: joints whose positions the points give. `turning`: joints that turn on their own; a link that
+  // hangs on a joint only through such a one (a spine that starts in the hips' own place) says nothing about
+  // the joint while there are others. The skeleton outlives this.
+  PointsToRotations(const Skeleton& skeleton, const std::vector<bool>& known,
+                    const std::vector<bool>& turning);
 
-  // One frame's world orientations (relative to the frame that the positions stand in) into `world`, all of size
-  // skeleton.size(). positions: only known joints are read. base_local, base_world: the base motion's rotations in that
-  // same frame. A joint with two or more links turns by the best rotation of them [Kabsch 1976], one with a single link
-  // by the smallest turn of the base's orientation that aims it, the others keep the base's local rotation. A link leads
-  // to a known child off the joint; children that sit on the joint itself pass theirs on.
-  // Only the links' directions count, so stretched points give the same rotations.
+  // One frame's world orientations (relative to the frame that the positions stand in) into `world`, all of
+  // size skeleton.size(). positions: only known joints are read. base_local, base_world: the base motion's
+  // rotations in that same frame. A joint with two or more links turns by the best rotation of them [Kabsch
+  // 1976], one with a single link by the smallest turn of the base's orientation that aims it, the others
+  // keep the base's local rotation. A link leads to a known child off the joint; children that sit on the
+  // joint itself pass theirs on. Only the links' directions count, so stretched points give the same
+  // rotations.
   void frame(const std::vector<Vec3>& positions, const std::vector<Quat>& base_local,
              const std::vector<Quat>& base_world, std::vector<Quat>& world) const;
 
@@ -25,13 +30,15 @@ class PointsToRotations {
     int target;
     std::vector<int> through;  // joints between, all at this joint's place
   };
-  void collect(int joint, std::vector<int> through, const std::vector<bool>& known, std::vector<Aim>& aims) const;
+  void collect(int joint, std::vector<int> through, const std::vector<bool>& known,
+               std::vector<Aim>& aims) const;
 
   const Skeleton& skeleton_;
   std::vector<std::vector<Aim>> aims_;
 };
 
-// The rotation R that makes Σ ‖R from_i - to_i‖² least [Horn 1987]; `prior` decides what the pairs leave open.
+// The rotation R that makes Σ ‖R from_i - to_i‖² least [Horn 1987]; `prior` decides what the pairs leave
+// open.
 Quat best_rotation(const std::vector<Vec3>& from, const std::vector<Vec3>& to, Quat prior);
 
 }  // namespace kinegraph

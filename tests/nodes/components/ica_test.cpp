@@ -1,0 +1,298 @@
+#include "nodes/components/ica.h"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "nodes/motion/kinematics.h"
+#include "tests/nodes/components/clips.h"
+#include "tests/nodes/motion/sample_motion.h"
+#include "tests/nodes/run_node.h"
+
+namespace kinegraph {
+NodeType ica_node();
+namespace {
+
+using testing::HasSubstr;
+
+constexpr Representation all_representations[] = {Representation::points, Representation::quaternions,
+                                                  Representation::euler, Representation::logarithm};
+
+Clips walk_and_sneak() {
+  return {shared(turning(gait("walk", 2), 0.6)), shared(gait("sneak", 2.3))};
+}
+
+// The channels of all clips side by side.
+Rows channels_of_all(const Components& components, Work& work) {
+  Rows out(components.space.channels(), components.frames());
+  std::vector<double> before;
+  for (const ComponentSegment& segment : components.segments) {
+    const Rows part = channels_of(components.space, *segment.motion, before, work);
+    before.clear();
+    for (std::size_t d = 0; d < out.rows; ++d) {
+      std::copy_n(part.row(d), part.columns, out.row(d) + segment.start);
+      before.push_back(part(d, part.columns - 1));
+    }
+  }
+  return out;
+}
+Rows rebuilt_channels(const Components& components) {
+  Rows x = product(components.mixing, components.signals);
+  for (std::size_t d = 0; d < x.rows; ++d)
+    for (std::size_t t = 0; t < x.columns; ++t) x(d, t) += components.mean[d];
+  return x;
+}
+double largest_range(const Rows& rows) {
+  double range = 0;
+  for (std::size_t i = 0; i < rows.rows; ++i) {
+    const auto [low, high] = std::minmax_element(rows.row(i), rows.row(i) + rows.columns);
+    range = std::max(range, *high - *low);
+  }
+  return range;
+}
+double largest_difference(const Rows& a, const Rows& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.data.size(); ++i) worst = std::max(worst, std::fabs(a.data[i] - b.data[i]));
+  return worst;
+}
+std::size_t rank_of(const Clips& clips, Representation representation) {
+  Alone work;
+  const std::vector<bool> all(clips.front()->joints(), true);
+  const ChannelSpace space = space_of_motions(representation, clips, all, true, {}, work);
+  Components only{};
+  only.space = space;
+  std::size_t at = 0;
+  std::vector<ComponentSegment> segments;
+  for (const auto& clip : clips) {
+    segments.push_back({at, at + clip->frames(), clip, nullptr, {}});
+    at += clip->frames();
+  }
+  only.segments = segments;
+  only.signals = Rows(1, at);
+  return principal_components(channels_of_all(only, work), work).rank;
+}
+
+TEST(IcaOfMotions, GivesBackEveryClipWithAllComponents) {
+  Alone work;
+  const Clips clips = walk_and_sneak();
+  for (Representation representation : all_representations) {
+    const auto rank = static_cast<int>(rank_of(clips, representation));
+    const Components components = analysed(clips, representation, rank, work);
+    const Rows x = channels_of_all(components, work), again = rebuilt_channels(components);
+    EXPECT_LT(largest_difference(x, again), 1e-9 * largest_range(x)) << name_of(representation);
+    for (const ComponentSegment& segment : components.segments) {
+      Rows part(again.rows, segment.frames());
+      for (std::size_t d = 0; d < again.rows; ++d)
+        std::copy_n(again.row(d) + segment.start, part.columns, part.row(d));
+      const Motion back = motion_from_channels(components.space, part, *segment.motion, {}, work);
+      const Difference worst = difference(back, *segment.motion);
+      EXPECT_LT(worst.turn, 2e-7) << name_of(representation);  // arccos near 1 knows no better
+      EXPECT_LT(worst.position, 1e-12) << name_of(representation);
+      const WorldMotion a = world_motion(back), b = world_motion(*segment.motion);
+      double apart = 0;
+      for (int j = 0; j < back.joints(); ++j)
+        for (std::size_t t = 0; t < back.frames(); ++t)
+          apart = std::max(apart, norm(a.position(j)[t] - b.position(j)[t]));
+      EXPECT_LT(apart, 1e-9 * largest_range(x)) << name_of(representation);
+    }
+  }
+}
+
+TEST(IcaOfMotions, LeavesTheRankKErrorOfASingularValueDecomposition) {
+  Alone work;
+  for (Representation representation : all_representations) {
+    const Components components = analysed(walk_and_sneak(), representation, 4, work);
+    const Rows x = channels_of_all(components, work);
+    Eigen::MatrixXd centred(x.rows, x.columns);
+    for (std::size_t d = 0; d < x.rows; ++d)
+      for (std::size_t t = 0; t < x.columns; ++t)
+        centred(static_cast<Eigen::Index>(d), static_cast<Eigen::Index>(t)) = x(d, t);
+    centred.colwise() -= centred.rowwise().mean().eval();
+    const Eigen::BDCSVD<Eigen::MatrixXd> svd(centred, Eigen::ComputeThinU);
+    const Eigen::MatrixXd axes = svd.matrixU().leftCols(4);
+    const double expected = (centred - axes * (axes.transpose() * centred)).norm();
+    const Rows again = rebuilt_channels(components);
+    double square = 0;
+    for (std::size_t i = 0; i < x.data.size(); ++i)
+      square += (x.data[i] - again.data[i]) * (x.data[i] - again.data[i]);
+    EXPECT_NEAR(std::sqrt(square) / expected, 1, 1e-9) << name_of(representation);
+  }
+}
+
+TEST(IcaOfMotions, TakesPathAndHeadingOut) {
+  Alone work;
+  const Motion walk = gait("walk", 2);
+  const Components straight = analysed({shared(walk)}, Representation::points, 3, work),
+                   round = analysed({shared(turning(walk, 2.0))}, Representation::points, 3, work);
+  EXPECT_LT(largest_difference(straight.mixing, round.mixing), 1e-7);
+  for (std::size_t c = 0; c < 3; ++c) {  // the root is the origin
+    EXPECT_EQ(straight.mean[c], 0);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(straight.mixing(c, i), 0);
+  }
+}
+
+TEST(IcaOfMotions, TakesTheFirstClipsBoneLengths) {
+  Alone work;
+  const Motion walk = gait("walk", 2);
+  Skeleton taller = walk.skeleton();
+  for (std::size_t j = 1; j < taller.joints.size(); ++j) taller.joints[j].offset *= 1.3;
+  Motion other(std::make_shared<const Skeleton>(taller), walk.shared_source(), walk.fps(), walk.frames(),
+               walk.translating());
+  for (int j = 0; j < walk.joints(); ++j)
+    for (std::size_t t = 0; t < walk.frames(); ++t) other.rotation(j).set(t, walk.rotation(j)[t]);
+  const Components components = analysed({shared(walk), shared(other)}, Representation::points, 2, work);
+  const Rows x = channels_of_all(components, work);
+  for (std::size_t d = 0; d < x.rows; ++d)
+    for (std::size_t t = 0; t < walk.frames(); ++t) ASSERT_NEAR(x(d, t), x(d, t + walk.frames()), 1e-12);
+}
+
+TEST(IcaOfMotions, FindsPartnersOfOtherNamesByMap) {
+  Motion walk = gait("walk", 2);
+  Skeleton renamed = walk.skeleton();
+  renamed.joints[1].name = "Elsewhere";
+  Motion other(std::make_shared<const Skeleton>(renamed), walk.shared_source(), walk.fps(), walk.frames(),
+               walk.translating());
+  NodeInMemory node(ica_node());
+  node.link("motions", walk).link("motions", other);
+  const Diagnostic refusal = NodeInMemory(node).refusal();
+  EXPECT_EQ(refusal.code, "joint-missing");
+  EXPECT_EQ(refusal.joint, walk.skeleton().joints[1].name);
+  Json::Array map;
+  for (std::size_t j = 0; j < renamed.joints.size(); ++j)
+    map.push_back(renamed.joints[j].name + "=" + walk.skeleton().joints[j].name);
+  node.set("map", map).run();
+  EXPECT_EQ(node.out<Components>("components").segments.size(), 2u);
+}
+
+TEST(IcaNode, RemembersSegmentsAndConvergence) {
+  NodeInMemory node(ica_node());
+  node.link("motions", gait("walk", 2)).link("motions", gait("sneak", 2.5)).set("components", 3).run();
+  const auto& components = node.out<Components>("components");
+  ASSERT_EQ(components.segments.size(), 2u);
+  EXPECT_EQ(components.segments[1].start, components.segments[0].end);
+  EXPECT_EQ(components.segments[1].end, components.frames());
+  EXPECT_EQ(components.count(), 3u);
+  EXPECT_LT(components.reached, components.tolerance);
+  double share = 0;
+  for (double s : components.shares) share += s;
+  EXPECT_GT(share, 0.5);
+  EXPECT_LE(share, 1 + 1e-12);
+}
+
+TEST(IcaNode, SurvivesTheDiskCache) {
+  NodeInMemory node(ica_node());
+  node.link("motions", gait("walk", 1)).set("components", 2).set("representation", "logarithm").run();
+  const std::string bytes = encoded(node.out<Components>("components"));
+  Decoder in(bytes);
+  EXPECT_EQ(encoded(*decode_components(in)), bytes);
+  EXPECT_TRUE(in.at_end());
+}
+
+TEST(IcaNode, RefusesWhatCantBeDecomposed) {
+  const Motion walk = gait("walk", 1);
+  const auto refusal = [](const Motion& motion, const char* param = nullptr, Json value = {}) {
+    NodeInMemory node(ica_node());
+    node.link("motions", motion);
+    if (param) node.set(param, std::move(value));
+    return node.refusal();
+  };
+  EXPECT_EQ(refusal(walk.empty_like(1)).code, "too-few-frames");
+  EXPECT_EQ(refusal(walk.empty_like(0)).code, "too-few-frames");
+  EXPECT_EQ(refusal(walk.empty_like(50)).code, "no-variance");
+  const Diagnostic many = refusal(walk, "components", 900);
+  EXPECT_EQ(many.code, "too-many-components");
+  EXPECT_EQ(many.param, "components");
+  EXPECT_THAT(many.message, HasSubstr("span only"));
+  EXPECT_EQ(refusal(walk, "joints", "").code, "no-joints");
+  NodeInMemory rates(ica_node());
+  const Diagnostic rate = rates.link("motions", walk).link("motions", gait("walk", 1, 30)).refusal();
+  EXPECT_EQ(rate.code, "rate-mismatch");
+  EXPECT_THAT(rate.hint, HasSubstr("Resample"));
+}
+
+// Five labels on a shaking and travelling head, two of which also move on their own.
+Points face(std::size_t frames, bool shakes,
+            std::vector<std::string> labels = {"a", "b", "c", "brow", "jaw"}) {
+  Points points(std::move(labels), 60, frames);
+  const Vec3 rest[] = {{0, 0.1, 0}, {0.1, -0.1, 0}, {-0.1, -0.1, 0.05}, {0.05, 0.05, 0.1}, {0, -0.2, 0.1}};
+  for (std::size_t t = 0; t < frames; ++t) {
+    const double s = static_cast<double>(t) / 60;
+    for (int i = 0; i < 5; ++i) {
+      Vec3 at = rest[i];
+      if (i == 3) at.y += 0.02 * sine(7 * s) * sine(7 * s);
+      if (i == 4) at.y -= 0.03 * std::max(0.0, sine(4.1 * s));
+      if (shakes) at = rotate(about_y(sine(2 * s)), at) + Vec3{s, 0.3 * cosine(s), 0};
+      points.track(i).set(t, at);
+    }
+  }
+  return points;
+}
+
+TEST(IcaOfPoints, GivesBackTheClip) {
+  Alone work;
+  for (Stabilise stabilise : {Stabilise::none, Stabilise::centroid, Stabilise::rigid}) {
+    const auto clip = std::make_shared<const Points>(face(200, true));
+    ChannelSpace space = space_of_points({clip}, stabilise, {true, true, true, false, false});
+    if (stabilise == Stabilise::none) {
+      EXPECT_EQ(space.labels.size(), 3u) << "chosen ones are the channels";
+      space = space_of_points({clip}, stabilise, std::vector<bool>(5, true));
+    }
+    IcaParams params;
+    params.variance = 1;
+    const Components components = components_of_points(space, {clip}, params, work);
+    const Points back = points_from_channels(components.space, rebuilt_channels(components), *clip, {});
+    for (std::size_t i = 0; i < clip->data.size(); ++i) ASSERT_NEAR(back.data[i], clip->data[i], 1e-9);
+  }
+}
+
+TEST(IcaOfPoints, TakesTheRigidMotionOfChosenLabelsOut) {
+  Alone work;
+  const auto still = std::make_shared<const Points>(face(200, false)),
+             shaken = std::make_shared<const Points>(face(200, true));
+  const std::vector<bool> head = {true, true, true, false, false};
+  IcaParams params;
+  params.components = 2;
+  params.fast_ica.tolerance = 1e-15;
+  const auto a = components_of_points(space_of_points({still}, Stabilise::rigid, head), {still}, params,
+                                      work),
+             b = components_of_points(space_of_points({shaken}, Stabilise::rigid, head), {shaken}, params,
+                                      work);
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t t = 0; t < 200; ++t) ASSERT_NEAR(a.signals(i, t), b.signals(i, t), 1e-9);
+}
+
+TEST(IcaOfPoints, RefusesGapsAndOtherLabels) {
+  NodeInMemory node(ica_node());
+  Points gaps = face(50, false);
+  for (std::size_t t : {4, 5, 6, 11}) gaps.set_missing(3, t);
+  const Diagnostic gap = node.link("motions", gaps).refusal();
+  EXPECT_EQ(gap.code, "gaps");
+  EXPECT_THAT(gap.message, HasSubstr("'brow' is missing at frames 4 to 6, 11"));
+  NodeInMemory without(ica_node());
+  without.link("motions", gaps).set("joints", "-brow").set("components", 1).run();
+  NodeInMemory labels(ica_node());
+  labels.link("motions", face(50, false)).link("motions", face(50, false, {"a", "b", "c", "brow", "chin"}));
+  EXPECT_THAT(labels.refusal().message, HasSubstr("no point 'jaw'"));
+  NodeInMemory mixed(ica_node());
+  mixed.link("motions", face(50, false)).link("motions", gait("walk", 1));
+  EXPECT_EQ(mixed.refusal().code, "mixed-inputs");
+}
+
+TEST(IcaOfRealClips, AgreesOnTheRankKErrorAndReturns) {
+  KINEGRAPH_NEEDS_MOCAP();
+  Alone work;
+  const Clips clips = {real_clip("cmu/asfamc/16_31.amc"), real_clip("cmu/asfamc/17_03.amc")};
+  for (Representation representation : all_representations) {
+    const auto rank = static_cast<int>(rank_of(clips, representation));
+    const Components components = analysed(clips, representation, rank, work, false);
+    const Rows x = channels_of_all(components, work), again = rebuilt_channels(components);
+    EXPECT_LT(largest_difference(x, again), 1e-9 * largest_range(x))
+        << name_of(representation) << " rank " << rank;
+  }
+}
+
+}  // namespace
+}  // namespace kinegraph
