@@ -33,6 +33,7 @@ NodeType filter_node();
 NodeType mirror_node();
 NodeType resample_node();
 NodeType trim_node();
+NodeType exaggerate_node();
 
 Registry all_nodes() {
   Registry registry;
@@ -67,6 +68,7 @@ Registry all_nodes() {
   registry.add(unwarp_time_node());
   registry.add(load_node());
   registry.add(export_node());
+  registry.add(exaggerate_node());
   registry.add(switch_node());
   registry.add(dot_node());
   registry.add(blend_node());

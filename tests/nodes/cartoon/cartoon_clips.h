@@ -1,0 +1,29 @@
+// The clips that the cartoon nodes are judged on: a walk, a run, a kick, a dance and boxing.
+#pragma once
+#include <string>
+
+#include "nodes/files/motion_file.h"
+#include "nodes/motion/motion.h"
+#include "tests/mocap.h"
+#include "tests/nodes/files/plain_files.h"
+
+namespace kinegraph {
+
+inline constexpr const char* cartoon_clips[] = {"cmu/bvh/08_01.bvh", "cmu/bvh/09_06.bvh", "m21/kick.bvh",
+                                                "cmu/bvh/05_03.bvh", "cmu/asfamc/17_10.amc"};
+
+// At most `frames` of a clip; of CMU's BVH files without the T-pose that a converter put before them.
+inline Motion cartoon_clip(const std::string& name, std::int64_t frames = 400) {
+  ReadOptions options;
+  options.drop_rest_frame = name.starts_with("cmu/bvh");
+  PlainFiles files;
+  Alone work;
+  MotionFile file = read_motion_file(mocap(name), options, files, work);
+  const auto have = static_cast<std::int64_t>(file.motion()->frames());
+  if (have <= frames) return *file.motion();
+  const std::int64_t first = options.drop_rest_frame ? 1 : 0;
+  options.range = {first, std::min(frames + first, have)};
+  return *read_motion_file(mocap(name), options, files, work).motion();
+}
+
+}  // namespace kinegraph
