@@ -21,6 +21,20 @@ int validate_command(const Program& program, const ValidateArguments& arguments)
 
 int fmt_command(const Program& program, const std::vector<std::string>& graphs, bool check);
 int upgrade_command(const Program& program, const std::vector<std::string>& graphs, bool in_place);
+
+// What changed in meaning between two graphs; with `textconv`, `a` alone as one line a unit, for git.
+struct DiffArguments {
+  std::string a, b;
+  bool check = false, json = false, textconv = false;
+};
+int diff_command(const Program& program, const DiffArguments& arguments);
+
+// Three-way, as git's merge driver asks for it.
+struct MergeArguments {
+  std::string base, ours, theirs, out;
+};
+int merge_command(const Program& program, const MergeArguments& arguments);
+
 int dot_command(const Program& program, const std::string& graph);
 int explain_command(const Program& program, const RunArguments& arguments, const std::string& node);
 int files_command(const Program& program, const RunArguments& arguments, bool json);

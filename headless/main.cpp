@@ -118,6 +118,28 @@ int chosen(const Program& program, int argc, char** argv) {
     command.add_flag("--in-place", in_place, "Rewrite the files");
     command.callback([&] { act = [&] { return upgrade_command(program, graphs, in_place); }; });
   }
+  DiffArguments difference;
+  {
+    auto& command = *app.add_subcommand("diff", "What changed in meaning: nodes, links, parameters");
+    command.add_option("A", difference.a, "A graph file")->required()->type_name("");
+    command.add_option("B", difference.b, "Another, or a later state of it")->type_name("");
+    command.add_flag("--check", difference.check, "Exit 1 when they differ");
+    auto as_json = command.add_flag("--json", difference.json, "As JSON");
+    command.add_flag("--textconv", difference.textconv, "A alone, one line for each thing it says, for git diff")
+        ->excludes(as_json);
+    command.callback([&] { act = [&] { return diff_command(program, difference); }; });
+  }
+  MergeArguments merging;
+  {
+    auto& command = *app.add_subcommand("merge", "Put two people's changes together, as git's merge driver");
+    command.add_option("BASE", merging.base, "What both started from")->required()->type_name("");
+    command.add_option("OURS", merging.ours, "One side")->required()->type_name("");
+    command.add_option("THEIRS", merging.theirs, "The other")->required()->type_name("");
+    command.add_option("-o", merging.out, "Where to; on a conflict with git's markers")
+        ->required()
+        ->type_name("OUT");
+    command.callback([&] { act = [&] { return merge_command(program, merging); }; });
+  }
   std::string graph, node;
   {
     auto& command = *app.add_subcommand("dot", "A graph for Graphviz");

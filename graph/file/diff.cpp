@@ -1,0 +1,144 @@
+#include "graph/file/diff.h"
+
+#include <set>
+
+#include "graph/file/units.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Kind = Unit::Kind;
+
+Unit whole_node(const Document& document, const std::string& name) {
+  const bool missing = document.nodes.at(name).missing.has_value();
+  return {missing ? Kind::missing_node : Kind::node, name, {}};
+}
+
+// Units of either, each once, in order.
+template <class Units>
+std::vector<Unit> united(const Units& units, const Document& before, const Document& after) {
+  std::set<Unit> all;
+  for (const Document* document : {&before, &after})
+    for (Unit& unit : units(*document)) all.insert(std::move(unit));
+  return {all.begin(), all.end()};
+}
+
+void add_if_changed(std::vector<Change>& changes, const Document& before, const Document& after,
+                    const Unit& unit) {
+  auto was = get(before, unit), is = get(after, unit);
+  if (was != is) changes.push_back({unit, std::move(was), std::move(is)});
+}
+
+}  // namespace
+
+Diff diff(const Document& old, const Document& after) {
+  Diff result;
+  result.renames = renames(old, after);
+  const Document before = renamed(old, result.renames);
+  std::set<std::string> names;
+  for (const Document* document : {&before, &after})
+    for (const auto& [name, node] : document->nodes) names.insert(name);
+  for (const std::string& name : names) {
+    const auto was = before.nodes.find(name), is = after.nodes.find(name);
+    if (was == before.nodes.end() || is == after.nodes.end()) {
+      const Document& in = was == before.nodes.end() ? after : before;
+      add_if_changed(result.changes, before, after, whole_node(in, name));
+      continue;
+    }
+    if (was->second.type != is->second.type ||
+        was->second.missing.has_value() != is->second.missing.has_value()) {
+      result.changes.push_back({whole_node(before, name), to_json(was->second), std::nullopt});
+      result.changes.push_back({whole_node(after, name), std::nullopt, to_json(is->second)});
+      continue;
+    }
+    const auto of_node = [&](const Document& document) { return units_of_node(document, name); };
+    for (const Unit& unit : united(of_node, before, after))
+      add_if_changed(result.changes, before, after, unit);
+  }
+  for (const Unit& unit : united(units_of_file, before, after))
+    add_if_changed(result.changes, before, after, unit);
+  std::vector<Change> layout;
+  for (const Unit& unit : united(units_of_ui, before, after)) add_if_changed(layout, before, after, unit);
+  result.layout = !layout.empty();
+  return result;
+}
+
+const char* name_of(Unit::Kind kind) {
+  switch (kind) {
+    case Kind::node:
+    case Kind::missing_node:
+      return "node";
+    case Kind::node_type:
+      return "type";
+    case Kind::node_enabled:
+      return "enabled";
+    case Kind::node_note:
+      return "note";
+    case Kind::node_param:
+      return "param";
+    case Kind::node_input:
+      return "input";
+    case Kind::variable:
+      return "variable";
+    case Kind::publish_param:
+      return "publish-param";
+    case Kind::publish_input:
+      return "publish-input";
+    case Kind::publish_output:
+      return "publish-output";
+    case Kind::ui_node:
+    case Kind::ui_frame:
+    case Kind::ui_note:
+    case Kind::ui_extra:
+      return "ui";
+    case Kind::node_extra:
+    case Kind::publish_extra:
+    case Kind::extra:
+      return "extra";
+  }
+  return "";
+}
+
+Json to_json(const Diff& diff) {
+  Json::Object renamed;
+  for (const auto& [from, to] : diff.renames) renamed[from] = to;
+  Json::Array changes;
+  for (const Change& change : diff.changes) {
+    Json::Object one{{"kind", name_of(change.unit.kind)}, {"name", change.unit.name}};
+    if (!change.unit.key.empty()) one["key"] = change.unit.key;
+    if (change.before) one["before"] = *change.before;
+    if (change.after) one["after"] = *change.after;
+    changes.push_back(std::move(one));
+  }
+  return Json::Object{
+      {"renamed", std::move(renamed)}, {"changes", std::move(changes)}, {"layout", diff.layout}};
+}
+
+std::string unit_lines(const Document& document) {
+  std::string text;
+  const auto add = [&](const Unit& unit) {
+    const auto value = get(document, unit);
+    if (!value) return;
+    const std::string name = to_text(unit);
+    if (unit.kind == Kind::node_type) {
+      const Json& type = *value->find("type");
+      const Json& version = *value->find("version");
+      text += unit.name + ": " + type.string();
+      if (!(version == Json(1))) text += " version " + compact(version);
+      text += '\n';
+    } else if (value->is_array() && !value->array().empty()) {
+      for (const Json& element : value->array()) text += name + ": " + compact(element) + '\n';
+    } else if (unit.kind == Kind::node_input && value->is_string()) {
+      text += name + " <- " + value->string() + '\n';
+    } else {
+      text += name + " = " + compact(*value) + '\n';
+    }
+  };
+  for (const auto& [name, node] : document.nodes)
+    for (const Unit& unit : units_of_node(document, name)) add(unit);
+  for (const Unit& unit : units_of_file(document)) add(unit);
+  return text;
+}
+
+}  // namespace kinegraph

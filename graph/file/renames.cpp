@@ -1,0 +1,147 @@
+#include "graph/file/renames.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+#include <vector>
+
+namespace kinegraph {
+
+namespace {
+
+// What a node is known by: its parameters and links, and who links to it, each as one text.
+using Values = std::set<std::string>;
+using Consumers = std::map<std::string, std::vector<std::string>, std::less<>>;  // node -> "port>node.port"
+
+const std::string& now(const std::string& name, const Renames& known) {
+  const auto found = known.find(name);
+  return found == known.end() ? name : found->second;
+}
+
+// With the names that nodes have after the renames that are known.
+Consumers consumers_in(const Document& document, const Renames& known) {
+  Consumers all;
+  for (const auto& [name, node] : document.nodes)
+    for (const auto& [port, inputs] : node.inputs)
+      for (const Link& link : inputs.links)
+        all[link.node].push_back(link.port + ">" + now(name, known) + "." + port);
+  return all;
+}
+
+Values values_of(const std::string& name, const Node& node, const Consumers& consumers,
+                 const Renames& known) {
+  Values values;
+  for (const auto& [param, value] : node.params) values.insert("p" + param + "=" + compact(value));
+  for (const auto& [port, inputs] : node.inputs)
+    for (const Link& link : inputs.links)
+      values.insert("i" + port + "<" + now(link.node, known) + "." + link.port);
+  if (const auto found = consumers.find(name); found != consumers.end())
+    for (const std::string& consumer : found->second) values.insert("c" + consumer);
+  return values;
+}
+
+struct Pair {
+  double likeness;
+  std::string before, after;
+};
+
+std::vector<Pair> pairs(const Document& before, const Document& after, const Renames& known) {
+  std::set<std::string, std::less<>> taken;
+  for (const auto& [from, to] : known) taken.insert(to);
+  struct Fresh {
+    const std::string* name;
+    const std::string* type;
+    std::size_t values;
+  };
+  std::vector<Fresh> fresh;
+  std::map<std::string, std::vector<std::size_t>> with_value;  // which of the new nodes have it
+  const Consumers consumers_before = consumers_in(before, known), consumers_after = consumers_in(after, {});
+  for (const auto& [name, node] : after.nodes) {
+    if (before.nodes.contains(name) || taken.contains(name)) continue;
+    const Values values = values_of(name, node, consumers_after, {});
+    for (const std::string& value : values) with_value[value].push_back(fresh.size());
+    fresh.push_back({&name, &node.type, values.size()});
+  }
+  std::vector<Pair> found;
+  std::vector<std::size_t> kept(fresh.size());
+  for (const auto& [name, node] : before.nodes) {
+    if (after.nodes.contains(name) || known.contains(name) || fresh.empty()) continue;
+    std::fill(kept.begin(), kept.end(), 0);
+    const Values values = values_of(name, node, consumers_before, known);
+    for (const std::string& value : values)
+      if (const auto there = with_value.find(value); there != with_value.end())
+        for (const std::size_t i : there->second) ++kept[i];
+    for (std::size_t i = 0; i < fresh.size(); ++i)
+      if (kept[i] > 0 && 2 * kept[i] >= values.size() && *fresh[i].type == node.type)
+        found.push_back(
+            {static_cast<double>(kept[i]) / static_cast<double>(std::max(values.size(), fresh[i].values)),
+             name, *fresh[i].name});
+  }
+  std::sort(found.begin(), found.end(), [](const Pair& a, const Pair& b) {
+    return std::tuple(-a.likeness, a.before, a.after) < std::tuple(-b.likeness, b.before, b.after);
+  });
+  return found;
+}
+
+Link renamed(const Link& link, const Renames& names) {
+  return {now(link.node, names), link.port, link.place};
+}
+
+Json renamed_in_missing(Json whole, const Renames& names) {
+  if (!whole.is_object() || !whole.find("inputs") || !whole.find("inputs")->is_object()) return whole;
+  const auto change = [&](Json& text) {
+    if (!text.is_string()) return;
+    if (const auto link = link_from_text(text.string())) text = Json(to_text(renamed(*link, names)));
+  };
+  for (auto& [port, links] : whole.object()["inputs"].object()) {
+    if (links.is_array())
+      for (Json& link : links.array()) change(link);
+    else
+      change(links);
+  }
+  return whole;
+}
+
+}  // namespace
+
+Renames renames(const Document& before, const Document& after) {
+  // Each round knows the names of the round before, so that a chain of renamed nodes is found link by link.
+  Renames known;
+  for (bool more = true; more;) {
+    more = false;
+    std::set<std::string> taken;
+    for (const auto& pair : pairs(before, after, known)) {
+      if (known.contains(pair.before) || !taken.insert(pair.after).second) continue;
+      known[pair.before] = pair.after;
+      more = true;
+    }
+  }
+  return known;
+}
+
+Document renamed(const Document& document, const Renames& names) {
+  if (names.empty()) return document;
+  Document result = document;
+  result.nodes.clear();
+  for (const auto& [name, node] : document.nodes) {
+    Node changed = node;
+    for (auto& [port, inputs] : changed.inputs)
+      for (Link& link : inputs.links) link = renamed(link, names);
+    if (changed.missing) changed.missing = renamed_in_missing(std::move(*changed.missing), names);
+    result.nodes[now(name, names)] = std::move(changed);
+  }
+  for (auto* published : {&result.publish.params, &result.publish.inputs, &result.publish.outputs})
+    for (auto& [name, links] : *published)
+      for (Link& link : links) link = renamed(link, names);
+  result.ui.nodes.clear();
+  for (const auto& [name, entry] : document.ui.nodes) result.ui.nodes[now(name, names)] = entry;
+  for (auto& [name, frame] : result.ui.frames) {
+    const Json* nodes = frame.find("nodes");
+    if (!nodes || !nodes->is_array()) continue;
+    for (Json& member : frame.object()["nodes"].array())
+      if (member.is_string()) member = Json(now(member.string(), names));
+  }
+  return result;
+}
+
+}  // namespace kinegraph

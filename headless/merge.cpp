@@ -1,0 +1,32 @@
+#include "graph/file/merge.h"
+
+#include <fmt/format.h>
+
+#include "graph/file/write.h"
+#include "headless/commands.h"
+#include "headless/exit_code.h"
+#include "headless/version_of_graph.h"
+
+namespace kinegraph {
+
+int merge_command(const Program& program, const MergeArguments& arguments) {
+  const Opened base = version_of_graph(arguments.base, program.registry);
+  const Opened ours = version_of_graph(arguments.ours, program.registry);
+  const Opened theirs = version_of_graph(arguments.theirs, program.registry);
+  bool good = true;
+  for (const Opened* side : {&base, &ours, &theirs}) good = usable_version(program, *side) && good;
+  if (!good) return exit_code::invalid;
+  const Merge merged = merge(base.document, ours.document, theirs.document, program.registry);
+  for (const MergeConflict& conflict : merged.conflicts)
+    program.terminal.message(
+        fmt::format("{}: {}\n", program.terminal.tinted_message("conflict", Tint::red), conflict.what));
+  try {
+    write_file_atomically(absolute_path(arguments.out), merged.text);
+  } catch (const Failure& failure) {
+    program.terminal.say(failure.diagnostic());
+    return exit_code::cannot_write;
+  }
+  return merged.conflicts.empty() ? exit_code::done : exit_code::failed;
+}
+
+}  // namespace kinegraph
