@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "headless/commands.h"
+#include "headless/cpu_choice.h"
 #include "headless/exit_code.h"
 #include "nodes/all_nodes.h"
 
@@ -270,6 +271,7 @@ int chosen(const Program& program, int argc, char** argv) {
 int main(int argc, char** argv) {
   Terminal terminal;
   try {
+    choose_cpu_from_environment();
     Registry registry = all_nodes();
     Program program{registry, terminal, KINEGRAPH_VERSION};
     int code = chosen(program, argc, argv);
