@@ -6,7 +6,10 @@
 #include "nodes/files/analysis_file.h"
 #include "nodes/files/bvh_read.h"
 #include "nodes/files/bvh_write.h"
+#include "nodes/files/c3d.h"
+#include "nodes/files/points_table.h"
 #include "nodes/files/text_place.h"
+#include "nodes/files/trc.h"
 
 namespace kinegraph {
 
@@ -72,14 +75,49 @@ EncodedFile write_json_file(const FileToWrite& file, Work&) {
   return {write_analysis(*kind_of_port(content.port), *content.value), {}};
 }
 
-EncodedFile write_csv_file(const FileToWrite& file, Work&) {
+MotionFile with_points(Points points) {
+  MotionFile file;
+  file.contents.push_back({"points", std::make_shared<const Points>(std::move(points))});
+  return file;
+}
+
+MotionFile read_c3d_file(const FileToRead& file, Work& work) {
+  return with_points(read_c3d(file.bytes, file.options, work));
+}
+MotionFile read_trc_file(const FileToRead& file, Work& work) {
+  return with_points(read_trc(file.bytes, file.options, work));
+}
+MotionFile read_csv_file(const FileToRead& file, Work& work) {
+  return with_points(read_points_table(file.bytes, file.options, work));
+}
+
+const Points& points_of(const FileToWrite& file) {
+  return dynamic_cast<const Points&>(*file.contents.front().value);
+}
+
+EncodedFile write_c3d_file(const FileToWrite& file, Work& work) {
+  return {write_c3d(points_of(file), file.options, work), {}};
+}
+EncodedFile write_trc_file(const FileToWrite& file, Work& work) {
+  const std::size_t folder = file.path.find_last_of('/');
+  return {write_trc(points_of(file), file.path.substr(folder + 1), file.options, work), {}};
+}
+
+EncodedFile write_csv_file(const FileToWrite& file, Work& work) {
   const FileContent& content = file.contents.front();
+  if (content.port == "points") return {write_points_table(points_of(file), work), {}};
   return {kind_of_port(content.port)->to_csv(*content.value), {}};
 }
 
 std::vector<std::string_view> analysis_ports() {
   std::vector<std::string_view> ports;
   for (const AnalysisKind& kind : analysis_kinds()) ports.push_back(kind.port);
+  return ports;
+}
+
+std::vector<std::string_view> table_ports() {
+  std::vector<std::string_view> ports = analysis_ports();
+  ports.push_back("points");
   return ports;
 }
 
@@ -98,9 +136,9 @@ const std::vector<ReadFormat>& read_formats() {
       {"bvh", "Biovision hierarchy", {"bvh"}, read_bvh_file},
       {"asf-amc", "Acclaim skeleton and motion", {"amc", "asf"}, read_acclaim_file, acclaim_companions},
       {"gltf", "glTF 2.0, text or binary", {"glb", "gltf"}},
-      {"c3d", "C3D markers", {"c3d"}},
-      {"trc", "TRC markers", {"trc"}},
-      {"csv", "Points as a table", {"csv"}},
+      {"c3d", "C3D markers", {"c3d"}, read_c3d_file},
+      {"trc", "TRC markers", {"trc"}, read_trc_file},
+      {"csv", "Points as a table", {"csv"}, read_csv_file},
       {"json", "An analysis that Export wrote", {"json"}, read_json_file},
       {"fbx", "FBX", {"fbx"}},
   };
@@ -112,9 +150,9 @@ const std::vector<WriteFormat>& write_formats() {
       {"bvh", "Biovision hierarchy", {"bvh"}, {"motion"}, write_bvh_file},
       {"glb", "glTF 2.0, one binary file", {"glb"}, {"motion", "character", "points"}},
       {"gltf", "glTF 2.0, text with its buffers beside it", {"gltf"}, {"motion", "character", "points"}},
-      {"c3d", "C3D markers", {"c3d"}, {"points"}},
-      {"trc", "TRC markers", {"trc"}, {"points"}},
-      {"csv", "A table", {"csv"}, analysis_ports(), write_csv_file},
+      {"c3d", "C3D markers", {"c3d"}, {"points"}, write_c3d_file},
+      {"trc", "TRC markers", {"trc"}, {"points"}, write_trc_file},
+      {"csv", "A table", {"csv"}, table_ports(), write_csv_file},
       {"json", "An analysis, without loss", {"json"}, analysis_ports(), write_json_file},
   };
   return formats;

@@ -55,6 +55,7 @@ std::string writable(const std::vector<FileContent>& contents) {
 // What a file without a telling name is, by how it begins.
 std::string format_of_bytes(std::string_view bytes) {
   std::string_view head = bytes.substr(0, 4096);
+  if (bytes.size() > 512 && bytes[1] == 0x50 && bytes[0] > 0 && bytes[0] < 16) return "c3d";
   if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
   head = trimmed(head);
   const std::string start = lower_case(head.substr(0, 32));
@@ -108,9 +109,13 @@ MotionFile read_motion_file(const std::string& path, const ReadOptions& options,
                         .at_param("format"));
     MotionFile file = format->read({path, *bytes, options, files}, work);
     file.format = format->key;
-    for (FileContent& content : file.contents)
-      if (auto motion = std::dynamic_pointer_cast<const Motion>(content.value); motion && options.fps > 0)
+    for (FileContent& content : file.contents) {
+      if (options.fps <= 0) break;
+      if (auto motion = std::dynamic_pointer_cast<const Motion>(content.value))
         content.value = std::make_shared<const Motion>(resampled(*motion, options.fps, work));
+      if (auto points = std::dynamic_pointer_cast<const Points>(content.value))
+        content.value = std::make_shared<const Points>(resampled(*points, options.fps, work));
+    }
     return file;
   } catch (const Failure& failure) {
     Diagnostic problem = failure.diagnostic();

@@ -59,6 +59,15 @@ std::vector<Moment> moments(std::size_t frames, double from, double to) {
   }
 }
 
+void check_count(std::size_t frames, double from, double to) {
+  double count = static_cast<double>(frames - 1) * to / from + 1;
+  if (count > 1e8) {
+    throw Failure(error("too-many-frames", fmt::format("{:.0f} frames would come out", count))
+                      .at_param("fps")
+                      .hinting("choose a lower rate"));
+  }
+}
+
 std::shared_ptr<const SourceFacts> facts_at(const Motion& motion) {
   auto facts = std::make_shared<SourceFacts>(*without_read(motion.shared_source()));
   facts->frame_time_text.clear();  // the file's spelling of another rate
@@ -79,12 +88,7 @@ Motion resampled(const Motion& motion, double fps, Work& work) {
     }
     return same;
   }
-  double count = static_cast<double>(motion.frames() - 1) * to / from + 1;
-  if (count > 1e8) {
-    throw Failure(error("too-many-frames", fmt::format("{:.0f} frames would come out", count))
-                      .at_param("fps")
-                      .hinting("choose a lower rate"));
-  }
+  check_count(motion.frames(), from, to);
   auto samples = moments(motion.frames(), from, to);
   Motion result(motion.shared_skeleton(), facts_at(motion), fps, samples.size(), motion.translating());
   work.parallel(static_cast<std::size_t>(motion.joints()), 1, [&](std::size_t begin, std::size_t end) {
@@ -104,6 +108,49 @@ Motion resampled(const Motion& motion, double fps, Work& work) {
       for (std::size_t k = 0; k < samples.size(); ++k) place.set(k, placed(p, samples[k]));
     }
   });
+  return result;
+}
+
+Points resampled(const Points& points, double fps, Work& work) {
+  double from = whole_rate(points.fps), to = whole_rate(fps);
+  if (points.frames == 0 || from == to) {
+    Points same = points;
+    same.fps = fps;
+    return same;
+  }
+  check_count(points.frames, from, to);
+  auto samples = moments(points.frames, from, to);
+  Points result(points.labels, fps, samples.size());
+  result.unit = points.unit;
+  result.unit_name = points.unit_name;
+  result.up = points.up;
+  result.links = points.links;
+  for (int label = 0; label < static_cast<int>(points.labels.size()); ++label) {
+    work.check();
+    auto p = points.track(label);
+    auto out = result.track(label);
+    auto gone = [&](std::ptrdiff_t t) {
+      return t < 0 || t >= static_cast<std::ptrdiff_t>(points.frames) ||
+             points.is_missing(label, static_cast<std::size_t>(t));
+    };
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      auto [t, part] = samples[k];
+      auto frame = static_cast<std::ptrdiff_t>(t);
+      if (gone(frame) || (part > 0 && gone(frame + 1))) {
+        result.set_missing(label, k);
+        continue;
+      }
+      if (part == 0) {
+        out.set(k, p[t]);
+        continue;
+      }
+      const Vec3 b = p[t], c = p[t + 1];
+      const bool no_a = gone(frame - 1), no_d = gone(frame + 2);
+      const Vec3 a = !no_a ? p[t - 1] : no_d ? 2 * b - c : 3 * (b - c) + p[t + 2];
+      const Vec3 d = !no_d ? p[t + 2] : no_a ? 2 * c - b : 3 * (c - b) + p[t - 1];
+      out.set(k, catmull_rom(a, b, c, d, part));
+    }
+  }
   return result;
 }
 
