@@ -1,0 +1,190 @@
+#include "independent_measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinegraph::independent {
+namespace {
+
+double length(Vec3 v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+
+// Half-angle vector of the shorter rotation.
+Vec3 half_log(Quat q) {
+  if (q.w < 0) q = {-q.x, -q.y, -q.z, -q.w};
+  const double s = length({q.x, q.y, q.z});
+  if (s < 1e-15) return {};
+  const double angle = std::atan2(s, q.w);
+  return {q.x / s * angle, q.y / s * angle, q.z / s * angle};
+}
+Quat half_exp(Vec3 v) {
+  const double angle = length(v);
+  const double k = angle < 1e-12 ? 1 : std::sin(angle) / angle;
+  return {v.x * k, v.y * k, v.z * k, std::cos(angle)};
+}
+double full_turn(Quat a, Quat b) { return 2 * length(half_log(inverse(a) * b)); }
+
+std::vector<Quat> world_root(const Motion& motion) {
+  std::vector<Quat> out;
+  for (std::size_t t = 0; t < motion.frames(); ++t)
+    out.push_back(motion.skeleton().above * motion.rotation(0)[t]);
+  return out;
+}
+
+// Forward and backward second-order Butterworth with the cutoff corrected for the two passes, odd padding.
+std::vector<double> smoothed(const std::vector<double>& x, double fps, double cutoff) {
+  const std::size_t n = x.size(), pad = std::min<std::size_t>(n - 1, static_cast<std::size_t>(fps));
+  if (n < 4) return x;
+  std::vector<double> y;
+  for (std::size_t i = pad; i > 0; --i) y.push_back(2 * x[0] - x[i]);
+  y.insert(y.end(), x.begin(), x.end());
+  for (std::size_t i = 1; i <= pad; ++i) y.push_back(2 * x[n - 1] - x[n - 1 - i]);
+  const double c = std::pow(std::sqrt(2.0) - 1, 0.25);
+  const double w = std::tan(M_PI * cutoff / fps) / c;
+  const double k = 1 + std::sqrt(2.0) * w + w * w;
+  const double b0 = w * w / k, a1 = 2 * (w * w - 1) / k, a2 = (1 - std::sqrt(2.0) * w + w * w) / k;
+  for (int pass = 0; pass < 2; ++pass) {
+    double x1 = y[0], x2 = y[0], y1 = y[0], y2 = y[0];
+    for (double& v : y) {
+      const double in = v;
+      v = b0 * (in + 2 * x1 + x2) - a1 * y1 - a2 * y2;
+      x2 = x1;
+      x1 = in;
+      y2 = y1;
+      y1 = v;
+    }
+    std::reverse(y.begin(), y.end());
+  }
+  return {y.begin() + static_cast<std::ptrdiff_t>(pad), y.begin() + static_cast<std::ptrdiff_t>(pad + n)};
+}
+
+}  // namespace
+
+Spread spread_of(const std::vector<Quat>& rotations) {
+  Spread out;
+  Quat mean = rotations.front();
+  for (int round = 0; round < 200; ++round) {
+    Vec3 sum;
+    for (const Quat& q : rotations) sum = sum + half_log(inverse(mean) * q);
+    sum = sum / static_cast<double>(rotations.size());
+    mean = normalized(mean * half_exp(sum));
+    if (length(sum) < 1e-14) break;
+  }
+  double squares = 0;
+  for (const Quat& q : rotations) {
+    const double h = length(half_log(inverse(mean) * q));
+    squares += h * h;
+  }
+  out.mean = mean;
+  out.sigma = std::sqrt(squares / static_cast<double>(rotations.size()));
+  return out;
+}
+
+Heading heading_of(const Motion& motion) {
+  Heading out;
+  const Quat rest = motion.skeleton().above * motion.skeleton().joints[0].rest;
+  double before = 0;
+  for (const Quat& q : world_root(motion)) {
+    const Quat turned = q * inverse(rest);
+    double psi = 2 * std::atan2(turned.y, turned.w);
+    psi -= 2 * M_PI * std::round((psi - before) / (2 * M_PI));
+    before = psi;
+    out.psi.push_back(psi);
+    out.rho.push_back(Quat{0, -std::sin(psi / 2), 0, std::cos(psi / 2)} * q);
+  }
+  return out;
+}
+
+std::map<std::string, double> style_distances(const Motion& motion, const std::vector<JointStats>& wanted) {
+  const Heading heading = heading_of(motion);
+  std::map<std::string, double> out;
+  for (const JointStats& stats : wanted) {
+    if (!stats.chosen) continue;
+    const int joint = motion.skeleton().find(stats.joint);
+    if (joint < 0) continue;
+    std::vector<Quat> rotations;
+    for (std::size_t t = 0; t < motion.frames(); ++t)
+      rotations.push_back(joint == 0 ? heading.rho[t] : motion.rotation(joint)[t]);
+    const Spread spread = spread_of(rotations);
+    const double least = 0.06 * M_PI / 180;
+    if (spread.sigma <= least && stats.spread <= least) continue;
+    const double turned = full_turn(spread.mean, stats.mean), spreads = 2 * (spread.sigma - stats.spread);
+    out[stats.joint] = std::sqrt(turned * turned + spreads * spreads) * 180 / M_PI;
+  }
+  return out;
+}
+
+double mean_of(const std::map<std::string, double>& values) {
+  double sum = 0;
+  for (const auto& [name, value] : values) sum += value;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+std::vector<std::vector<Vec3>> positions_of(const Motion& motion) {
+  const Skeleton& skeleton = motion.skeleton();
+  std::vector<std::vector<Vec3>> out(skeleton.joints.size(), std::vector<Vec3>(motion.frames()));
+  std::vector<Quat> world(skeleton.joints.size());
+  for (std::size_t t = 0; t < motion.frames(); ++t) {
+    for (int j = 0; j < skeleton.size(); ++j) {
+      const int parent = skeleton.joints[j].parent;
+      const Vec3 offset = motion.local_offset(j, t);
+      const Quat q = motion.rotation(j)[t];
+      if (parent < 0) {
+        out[j][t] = skeleton.above_offset + rotate(skeleton.above, skeleton.above_scale * offset);
+        world[j] = skeleton.above * q;
+      } else {
+        out[j][t] = out[parent][t] + rotate(world[parent], skeleton.above_scale * offset);
+        world[j] = world[parent] * q;
+      }
+    }
+  }
+  return out;
+}
+
+std::map<std::string, double> largest_accelerations(const Motion& motion) {
+  std::map<std::string, double> out;
+  const auto positions = positions_of(motion);
+  const double fps = motion.fps();
+  for (int j = 0; j < motion.joints(); ++j) {
+    std::vector<double> axes[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> series;
+      for (const Vec3& p : positions[j]) series.push_back(p[axis]);
+      axes[axis] = smoothed(series, fps, 15);
+    }
+    double largest = 0;
+    for (std::size_t t = 1; t + 1 < motion.frames(); ++t) {
+      Vec3 a;
+      for (int axis = 0; axis < 3; ++axis) a[axis] = (axes[axis][t + 1] - 2 * axes[axis][t] + axes[axis][t - 1]) * fps * fps;
+      largest = std::max(largest, length(a));
+    }
+    out[motion.skeleton().joints[j].name] = largest;
+  }
+  return out;
+}
+
+Steps steps_of(const Contacts& contacts) {
+  Steps out;
+  std::vector<std::size_t> starts;
+  for (bool left : {true, false}) {
+    std::vector<bool> planted(contacts.frames, false);
+    for (const FootPoint& point : contacts.points)
+      if (point.left == left)
+        for (std::size_t t = 0; t < contacts.frames; ++t)
+          if (point.planted[t]) planted[t] = true;
+    std::size_t start = 0;
+    bool on = false;
+    for (std::size_t t = 0; t <= contacts.frames; ++t) {
+      const bool now = t < contacts.frames && planted[t];
+      if (now && !on) start = t;
+      if (!now && on && static_cast<double>(t - start) > 0.1 * contacts.fps) starts.push_back(start);
+      on = now;
+    }
+  }
+  std::sort(starts.begin(), starts.end());
+  out.count = static_cast<int>(starts.size());
+  if (starts.size() > 1 && starts.back() > starts.front())
+    out.cadence = static_cast<double>(starts.size() - 1) * contacts.fps / static_cast<double>(starts.back() - starts.front());
+  return out;
+}
+
+}  // namespace kinegraph::independent

@@ -1,0 +1,44 @@
+// The measures by which the main job is judged, written apart from the program's own: plain loops over frames, the C
+// library's functions, nothing from nodes/style or nodes/judge.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "nodes/motion/contacts.h"
+#include "nodes/motion/motion.h"
+#include "nodes/style/stats.h"
+
+namespace kinegraph::independent {
+
+struct Spread {
+  Quat mean;
+  double sigma = 0;  // rms half-angle, rad
+};
+// Mean rotation by the chordal mean made into a Karcher mean by plain fixed-point steps.
+Spread spread_of(const std::vector<Quat>& rotations);
+
+// ψ of the root in world relative to rest, unwrapped, rad; and ρ = R_y(-ψ) q.
+struct Heading {
+  std::vector<double> psi;
+  std::vector<Quat> rho;
+};
+Heading heading_of(const Motion& motion);
+
+// Per joint, degrees: √(turn between the means² + (2Δσ)²), over the joints that the Stats name and σ > 0.06° in either.
+std::map<std::string, double> style_distances(const Motion& motion, const std::vector<JointStats>& wanted);
+double mean_of(const std::map<std::string, double>& values);
+
+// World positions of every joint and frame, by plain forward kinematics.
+std::vector<std::vector<Vec3>> positions_of(const Motion& motion);
+// Largest acceleration of each joint after a zero-phase 15 Hz second-order Butterworth low-pass, m/s².
+std::map<std::string, double> largest_accelerations(const Motion& motion);
+
+// Steps: plants of a foot (heel or ball) longer than 0.1 s; and steps a second between the first and last plant's start.
+struct Steps {
+  int count = 0;
+  double cadence = 0;
+};
+Steps steps_of(const Contacts& contacts);
+
+}  // namespace kinegraph::independent
