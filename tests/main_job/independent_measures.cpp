@@ -6,7 +6,9 @@
 namespace kinegraph::independent {
 namespace {
 
-double length(Vec3 v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+double length(Vec3 v) {
+  return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
 
 // Half-angle vector of the shorter rotation.
 Vec3 half_log(Quat q) {
@@ -21,7 +23,9 @@ Quat half_exp(Vec3 v) {
   const double k = angle < 1e-12 ? 1 : std::sin(angle) / angle;
   return {v.x * k, v.y * k, v.z * k, std::cos(angle)};
 }
-double full_turn(Quat a, Quat b) { return 2 * length(half_log(inverse(a) * b)); }
+double full_turn(Quat a, Quat b) {
+  return 2 * length(half_log(inverse(a) * b));
+}
 
 std::vector<Quat> world_root(const Motion& motion) {
   std::vector<Quat> out;
@@ -154,7 +158,8 @@ std::map<std::string, double> largest_accelerations(const Motion& motion) {
     double largest = 0;
     for (std::size_t t = 1; t + 1 < motion.frames(); ++t) {
       Vec3 a;
-      for (int axis = 0; axis < 3; ++axis) a[axis] = (axes[axis][t + 1] - 2 * axes[axis][t] + axes[axis][t - 1]) * fps * fps;
+      for (int axis = 0; axis < 3; ++axis)
+        a[axis] = (axes[axis][t + 1] - 2 * axes[axis][t] + axes[axis][t - 1]) * fps * fps;
       largest = std::max(largest, length(a));
     }
     out[motion.skeleton().joints[j].name] = largest;
@@ -183,7 +188,8 @@ Steps steps_of(const Contacts& contacts) {
   std::sort(starts.begin(), starts.end());
   out.count = static_cast<int>(starts.size());
   if (starts.size() > 1 && starts.back() > starts.front())
-    out.cadence = static_cast<double>(starts.size() - 1) * contacts.fps / static_cast<double>(starts.back() - starts.front());
+    out.cadence = static_cast<double>(starts.size() - 1) * contacts.fps /
+                  static_cast<double>(starts.back() - starts.front());
   return out;
 }
 

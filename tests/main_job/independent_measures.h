@@ -1,5 +1,5 @@
-// The measures by which the main job is judged, written apart from the program's own: plain loops over frames, the C
-// library's functions, nothing from nodes/style or nodes/judge.
+// The measures by which the main job is judged, written apart from the program's own: plain loops over
+// frames, the C library's functions, nothing from nodes/style or nodes/judge.
 #pragma once
 #include <map>
 #include <string>
@@ -25,7 +25,8 @@ struct Heading {
 };
 Heading heading_of(const Motion& motion);
 
-// Per joint, degrees: √(turn between the means² + (2Δσ)²), over the joints that the Stats name and σ > 0.06° in either.
+// Per joint, degrees: √(turn between the means² + (2Δσ)²), over the joints that the Stats name and σ > 0.06°
+// in either.
 std::map<std::string, double> style_distances(const Motion& motion, const std::vector<JointStats>& wanted);
 double mean_of(const std::map<std::string, double>& values);
 
@@ -34,7 +35,8 @@ std::vector<std::vector<Vec3>> positions_of(const Motion& motion);
 // Largest acceleration of each joint after a zero-phase 15 Hz second-order Butterworth low-pass, m/s².
 std::map<std::string, double> largest_accelerations(const Motion& motion);
 
-// Steps: plants of a foot (heel or ball) longer than 0.1 s; and steps a second between the first and last plant's start.
+// Steps: plants of a foot (heel or ball) longer than 0.1 s; and steps a second between the first and last
+// plant's start.
 struct Steps {
   int count = 0;
   double cadence = 0;

@@ -1,7 +1,8 @@
-// The main job, from saved graphs through the real program: the four pairs of [Wu] Table 1 as far as the clips are to be
-// had. Judged on the files it wrote, by measures of its own.
+// The main job, from saved graphs through the real program: the four pairs of [Wu] Table 1 as far as the
+// clips are to be had. Judged on the files it wrote, by measures of its own.
 #include <fmt/format.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,6 +12,7 @@
 
 #include "graph/evaluate/file_store.h"
 #include "independent_measures.h"
+#include "nodes/feet/detect_contacts.h"
 #include "nodes/files/motion_file.h"
 #include "tests/mocap.h"
 
@@ -25,11 +27,11 @@ class MainJob : public testing::TestWithParam<const char*> {
     KINEGRAPH_NEEDS_MOCAP();
     out_ = fs::temp_directory_path() / fmt::format("kinegraph_main_job_{}_{}", GetParam(), ::getpid());
     fs::create_directories(out_);
-    const std::string command =
-        fmt::format("'{}/kinegraph' run '{}/tests/main_job/{}.kg.json' --var 'mocap={}' --out '{}' --progress none "
-                    "--report '{}/report.json' > '{}/log' 2>&1",
-                    KINEGRAPH_BIN_DIR, KINEGRAPH_SOURCE_DIR, GetParam(), mocap(), out_.string(), out_.string(),
-                    out_.string());
+    const std::string command = fmt::format(
+        "'{}/kinegraph' run '{}/tests/main_job/{}.kg.json' --var 'mocap={}' --out '{}' --progress none "
+        "--report '{}/report.json' > '{}/log' 2>&1",
+        KINEGRAPH_BIN_DIR, KINEGRAPH_SOURCE_DIR, GetParam(), mocap(), out_.string(), out_.string(),
+        out_.string());
     const int status = std::system(command.c_str());
     std::ifstream log(out_ / "log");
     std::stringstream text;
@@ -84,24 +86,26 @@ TEST_P(MainJob, TakesOnTheStyle) {
   const auto before = independent::style_distances(*warped_, wanted_);
   const auto transferred = independent::style_distances(*transferred_, wanted_);
   const auto result = independent::style_distances(*result_, wanted_);
-  EXPECT_LT(independent::mean_of(transferred), 0.05 * at_first) << "style distance before UnwarpTime, of " << at_first;
-  EXPECT_LT(independent::mean_of(result), 0.30 * at_first) << "style distance of the exported file, of " << at_first;
+  EXPECT_LT(independent::mean_of(transferred), 0.05 * at_first)
+      << "style distance before UnwarpTime, of " << at_first;
+  EXPECT_LT(independent::mean_of(result), 0.30 * at_first)
+      << "style distance of the exported file, of " << at_first;
   std::string worse;
   for (const auto& [joint, distance] : result)
     if (before.count(joint) && distance > before.at(joint))
       worse += fmt::format(" {} {:.2f}->{:.2f}°", joint, before.at(joint), distance);
-  fmt::print("{}: style distance {:.2f}° -> {:.3f}° before UnwarpTime -> {:.3f}° exported; worse joints:{}\n", GetParam(),
-             at_first, independent::mean_of(transferred), independent::mean_of(result), worse.empty() ? " none" : worse);
+  fmt::print("{}: style distance {:.2f}° -> {:.3f}° before UnwarpTime -> {:.3f}° exported; worse joints:{}\n",
+             GetParam(), at_first, independent::mean_of(transferred), independent::mean_of(result),
+             worse.empty() ? " none" : worse);
 }
 
 TEST_P(MainJob, KeepsStepsAndCadence) {
-  const auto detect = [&](const std::string& ending) {
-    // The program's own detection, at its defaults, on both files.
-    return ending;
-  };
-  (void)detect;
-  const independent::Steps planned = independent::steps_of(*contacts_);
-  EXPECT_GT(planned.count, 1);
+  Alone work;
+  const independent::Steps was = independent::steps_of(detect_contacts(*source_, {}, work));
+  const independent::Steps is = independent::steps_of(detect_contacts(*result_, {}, work));
+  EXPECT_GT(was.count, 1);
+  EXPECT_EQ(is.count, was.count);
+  EXPECT_NEAR(is.cadence, was.cadence, 0.02 * was.cadence) << "steps a second";
 }
 
 TEST_P(MainJob, KeepsTheHeading) {
@@ -130,10 +134,13 @@ TEST_P(MainJob, HoldsPlantedPoints) {
   for (const FootPoint& point : contacts_->points) {
     const int joint = result_->skeleton().find(point.joint_name);
     ASSERT_GE(joint, 0) << point.joint_name;
-    for (const Run& run : runs_of(point.planted)) {
-      const auto at = [&](std::size_t t) { return positions[joint][t] + rotate(world[joint][t], point.local); };
+    for (const auto& run : runs_of(point.planted)) {
+      const auto at = [&](std::size_t t) {
+        return positions[joint][t] + rotate(world[joint][t], point.local);
+      };
       Vec3 mean;
-      for (std::size_t t = run.start; t < run.end; ++t) mean += at(t) / static_cast<double>(run.end - run.start);
+      for (std::size_t t = run.start; t < run.end; ++t)
+        mean += at(t) / static_cast<double>(run.end - run.start);
       for (std::size_t t = run.start; t < run.end; ++t) largest = std::max(largest, norm(at(t) - mean));
     }
   }
@@ -154,7 +161,7 @@ TEST_P(MainJob, StaysSmooth) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Wu, MainJob, testing::Values("stealthy", "stride_run", "happy", "old"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& pair) { return std::string(pair.param); });
 
 }  // namespace
 }  // namespace kinegraph
