@@ -167,29 +167,48 @@ std::map<std::string, double> largest_accelerations(const Motion& motion) {
   return out;
 }
 
-Steps steps_of(const Contacts& contacts) {
-  Steps out;
-  std::vector<std::size_t> starts;
-  for (bool left : {true, false}) {
-    std::vector<bool> planted(contacts.frames, false);
-    for (const FootPoint& point : contacts.points)
-      if (point.left == left)
-        for (std::size_t t = 0; t < contacts.frames; ++t)
-          if (point.planted[t]) planted[t] = true;
-    std::size_t start = 0;
-    bool on = false;
-    for (std::size_t t = 0; t <= contacts.frames; ++t) {
-      const bool now = t < contacts.frames && planted[t];
-      if (now && !on) start = t;
-      if (!now && on && static_cast<double>(t - start) > 0.1 * contacts.fps) starts.push_back(start);
-      on = now;
+Steps steps_of(const Motion& motion, const std::string& left_ankle, const std::string& right_ankle) {
+  const auto positions = positions_of(motion);
+  const Heading heading = heading_of(motion);
+  const auto& left = positions[motion.skeleton().find(left_ankle)];
+  const auto& right = positions[motion.skeleton().find(right_ankle)];
+  std::vector<double> ahead;
+  for (std::size_t t = 0; t < motion.frames(); ++t) {
+    const Vec3 d = left[t] - right[t];
+    ahead.push_back(d.x * std::sin(heading.psi[t]) + d.z * std::cos(heading.psi[t]));
+  }
+  ahead = smoothed(ahead, motion.fps(), 4);
+  double mean = 0, square = 0;
+  for (double x : ahead) mean += x / static_cast<double>(ahead.size());
+  for (double x : ahead) square += (x - mean) * (x - mean) / static_cast<double>(ahead.size());
+  // Extremes between which the signal swings by at least 0.25 of a sine's full swing of the same power.
+  const double least = 0.25 * 2 * std::sqrt(2 * square);
+  std::vector<std::size_t> extremes;
+  std::size_t high = 0, low = 0;
+  int direction = 0;
+  for (std::size_t t = 0; t < ahead.size(); ++t) {
+    if (ahead[t] > ahead[high]) high = t;
+    if (ahead[t] < ahead[low]) low = t;
+    if (direction >= 0 && ahead[high] - ahead[t] > least) {
+      extremes.push_back(high);
+      direction = -1;
+      low = t;
+    } else if (direction <= 0 && ahead[t] - ahead[low] > least) {
+      extremes.push_back(low);
+      direction = 1;
+      high = t;
     }
   }
-  std::sort(starts.begin(), starts.end());
-  out.count = static_cast<int>(starts.size());
-  if (starts.size() > 1 && starts.back() > starts.front())
-    out.cadence = static_cast<double>(starts.size() - 1) * contacts.fps /
-                  static_cast<double>(starts.back() - starts.front());
+  // The last need not have turned back by as much before the clip ends; extremes at the very ends are no
+  // steps.
+  if (direction > 0 && ahead[high] - ahead[extremes.back()] > least) extremes.push_back(high);
+  if (direction < 0 && ahead[extremes.back()] - ahead[low] > least) extremes.push_back(low);
+  std::erase_if(extremes, [&](std::size_t t) { return t < 3 || t + 3 >= ahead.size(); });
+  Steps out;
+  out.count = static_cast<int>(extremes.size());
+  if (extremes.size() > 1)
+    out.cadence = static_cast<double>(extremes.size() - 1) * motion.fps() /
+                  static_cast<double>(extremes.back() - extremes.front());
   return out;
 }
 

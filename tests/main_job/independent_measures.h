@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "nodes/motion/contacts.h"
 #include "nodes/motion/motion.h"
 #include "nodes/style/stats.h"
 
@@ -35,12 +34,13 @@ std::vector<std::vector<Vec3>> positions_of(const Motion& motion);
 // Largest acceleration of each joint after a zero-phase 15 Hz second-order Butterworth low-pass, m/s².
 std::map<std::string, double> largest_accelerations(const Motion& motion);
 
-// Steps: plants of a foot (heel or ball) longer than 0.1 s; and steps a second between the first and last
-// plant's start.
+// Steps, told by the legs alone, so that runs and sneaks count as well: how far the left ankle is ahead of
+// the right in the heading's frame, low-passed at 4 Hz; every swing from one side to the other by more than
+// 0.4 of its usual size is a step.
 struct Steps {
   int count = 0;
-  double cadence = 0;
+  double cadence = 0;  // steps a second between the first and the last extreme
 };
-Steps steps_of(const Contacts& contacts);
+Steps steps_of(const Motion& motion, const std::string& left_ankle, const std::string& right_ankle);
 
 }  // namespace kinegraph::independent
