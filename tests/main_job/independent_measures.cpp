@@ -181,34 +181,36 @@ Steps steps_of(const Motion& motion, const std::string& left_ankle, const std::s
   double mean = 0, square = 0;
   for (double x : ahead) mean += x / static_cast<double>(ahead.size());
   for (double x : ahead) square += (x - mean) * (x - mean) / static_cast<double>(ahead.size());
-  // Extremes between which the signal swings by at least 0.25 of a sine's full swing of the same power.
-  const double least = 0.25 * 2 * std::sqrt(2 * square);
+  // The extreme on each side of the middle, beyond a fifth of a sine's height of the same power.
+  const double beyond = 0.2 * std::sqrt(2 * square);
   std::vector<std::size_t> extremes;
-  std::size_t high = 0, low = 0;
-  int direction = 0;
+  int side = 0;
   for (std::size_t t = 0; t < ahead.size(); ++t) {
-    if (ahead[t] > ahead[high]) high = t;
-    if (ahead[t] < ahead[low]) low = t;
-    if (direction >= 0 && ahead[high] - ahead[t] > least) {
-      extremes.push_back(high);
-      direction = -1;
-      low = t;
-    } else if (direction <= 0 && ahead[t] - ahead[low] > least) {
-      extremes.push_back(low);
-      direction = 1;
-      high = t;
+    const double x = ahead[t] - mean;
+    const int now = x > beyond ? 1 : x < -beyond ? -1 : 0;
+    if (now == 0) continue;
+    if (now != side)
+      extremes.push_back(t);
+    else if (now * (ahead[t] - ahead[extremes.back()]) > 0)
+      extremes.back() = t;
+    side = now;
+  }
+  // The legs pass each other half-way between two extremes.
+  std::vector<double> passings;
+  for (std::size_t i = 0; i + 1 < extremes.size(); ++i) {
+    const double level = (ahead[extremes[i]] + ahead[extremes[i + 1]]) / 2;
+    for (std::size_t t = extremes[i]; t < extremes[i + 1]; ++t) {
+      const double x = ahead[t] - level, y = ahead[t + 1] - level;
+      if (x * y > 0 || x == y) continue;
+      passings.push_back(static_cast<double>(t) + x / (x - y));
+      break;
     }
   }
-  // The last need not have turned back by as much before the clip ends; extremes at the very ends are no
-  // steps.
-  if (direction > 0 && ahead[high] - ahead[extremes.back()] > least) extremes.push_back(high);
-  if (direction < 0 && ahead[extremes.back()] - ahead[low] > least) extremes.push_back(low);
-  std::erase_if(extremes, [&](std::size_t t) { return t < 3 || t + 3 >= ahead.size(); });
   Steps out;
-  out.count = static_cast<int>(extremes.size());
-  if (extremes.size() > 1)
-    out.cadence = static_cast<double>(extremes.size() - 1) * motion.fps() /
-                  static_cast<double>(extremes.back() - extremes.front());
+  out.count = static_cast<int>(passings.size());
+  if (passings.size() > 1)
+    out.cadence =
+        static_cast<double>(passings.size() - 1) * motion.fps() / (passings.back() - passings.front());
   return out;
 }
 

@@ -35,11 +35,11 @@ std::vector<std::vector<Vec3>> positions_of(const Motion& motion);
 std::map<std::string, double> largest_accelerations(const Motion& motion);
 
 // Steps, told by the legs alone, so that runs and sneaks count as well: how far the left ankle is ahead of
-// the right in the heading's frame, low-passed at 4 Hz; every swing from one side to the other by more than
-// 0.4 of its usual size is a step.
+// the right in the heading's frame, low-passed at 4 Hz and without its mean; every passing from one side to
+// the other is a step.
 struct Steps {
   int count = 0;
-  double cadence = 0;  // steps a second between the first and the last extreme
+  double cadence = 0;  // steps a second between the first and the last passing
 };
 Steps steps_of(const Motion& motion, const std::string& left_ankle, const std::string& right_ankle);
 
