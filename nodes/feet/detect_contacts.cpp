@@ -61,6 +61,14 @@ void apply_edits(const std::vector<ContactEdit>& edits, Contacts& contacts) {
   }
 }
 
+void measure_heights(FootPoint& point, const WorldMotion& world) {
+  for (const Run& run : runs_of(point.planted)) {
+    double sum = 0;
+    for (std::size_t t = run.start; t < run.end; ++t) sum += point_at(world, point.joint, point.local, t).y;
+    point.heights.push_back(sum / static_cast<double>(run.end - run.start));
+  }
+}
+
 }  // namespace
 
 Contacts detect_contacts(const Motion& motion, const DetectContactsParams& params, Work& work) {
@@ -77,6 +85,7 @@ Contacts detect_contacts(const Motion& motion, const DetectContactsParams& param
     work.progress(static_cast<double>(i + 1) / static_cast<double>(contacts.points.size()));
   }
   apply_edits(params.edits, contacts);
+  for (FootPoint& point : contacts.points) measure_heights(point, world);
   return contacts;
 }
 

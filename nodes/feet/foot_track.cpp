@@ -35,6 +35,7 @@ std::vector<FootTrack> foot_tracks(const Skeleton& skeleton, const WorldMotion& 
       FootTrack::Part& part = point.part == "heel" ? foot.heel : foot.ball;
       if (!part.planted.empty()) continue;  // one heel and one ball a foot hold it
       part.planted = point.planted;
+      part.heights = point.heights;
       part.from_ankle.resize(world.frames());
       for (std::size_t t = 0; t < world.frames(); ++t)
         part.from_ankle[t] = point_at(world, joint, point.local, t) - foot.ankle[t];

@@ -18,6 +18,7 @@ struct FootTrack {
   struct Part {
     std::vector<Vec3> from_ankle;
     std::vector<bool> planted;
+    std::vector<double> heights;  // FootPoint::heights
     bool planted_at(std::size_t t) const { return !planted.empty() && planted[t]; }
   };
   Part heel, ball;

@@ -10,7 +10,8 @@ constexpr double no_skate = 0.0008;  // m
 struct Plant {
   const FootTrack::Part* part;
   Run run;
-  Vec3 from_first;  // of this plant's place, seen from the place of the stand's first plant
+  std::optional<double> height;  // of the ground there, as the contacts know it
+  Vec3 from_first;               // of this plant's place, seen from the place of the stand's first plant
 };
 
 double median(std::vector<double> values) {
@@ -42,12 +43,34 @@ Vec3 span(const Plant& a, const Plant& b) {
   return (length / static_cast<double>(end - start)) * normalized(sum);
 }
 
-// How far a part stands above the floor: the median over its planted frames.
+// How far a part stands above the floor: the median over its plants, or its planted frames here where the
+// contacts don't know.
 double standing_height(const FootTrack& foot, const FootTrack::Part& part, double floor) {
   std::vector<double> heights;
+  for (double height : part.heights) heights.push_back(height - floor);
+  if (!heights.empty()) return median(std::move(heights));
   for (std::size_t t = 0; t < foot.frames(); ++t)
     if (part.planted_at(t)) heights.push_back(path(foot, part, t).y - floor);
   return heights.empty() ? 0 : median(std::move(heights));
+}
+
+std::optional<double> height_of(const FootTrack::Part& part, std::size_t plant) {
+  if (plant >= part.heights.size()) return std::nullopt;
+  return part.heights[plant];
+}
+
+// How much higher the ground under a stand is, where the contacts know it, than the stand's own height. A
+// changed motion may float or sink; the contacts of the motion it came from still know where the ground was.
+double lift_to_ground(const std::vector<Plant>& plants, std::size_t first, std::size_t last,
+                      double first_height) {
+  double sum = 0, frames = 0;
+  for (std::size_t i = first; i <= last; ++i) {
+    if (!plants[i].height) return 0;
+    const auto length = static_cast<double>(plants[i].run.end - plants[i].run.start);
+    sum += length * (*plants[i].height - (first_height + plants[i].from_first.y));
+    frames += length;
+  }
+  return sum / frames;
 }
 
 }  // namespace
@@ -60,7 +83,10 @@ PlantPositions plant_positions(const FootTrack& foot, double fps, std::optional<
   places.steady.resize(foot.frames(), false);
   std::vector<Plant> plants;
   for (const FootTrack::Part* part : {&foot.heel, &foot.ball})
-    for (const Run& run : runs_of(part->planted)) plants.push_back({part, run, {}});
+    for (std::size_t i = 0; const Run& run : runs_of(part->planted)) {
+      plants.push_back({part, run, height_of(*part, i), {}});
+      ++i;
+    }
   std::stable_sort(plants.begin(), plants.end(),
                    [](const Plant& a, const Plant& b) { return a.run.start < b.run.start; });
   const double heel_height = standing_height(foot, foot.heel, contacts_floor);
@@ -86,9 +112,11 @@ PlantPositions plant_positions(const FootTrack& foot, double fps, std::optional<
         count += 1;
       }
     }
+    const double lift = lift_to_ground(plants, first, last, sum.y / count);
     double furthest = 0;
     for (std::size_t i = first; i <= last; ++i) {
       Vec3 place = sum / count + plants[i].from_first;
+      place.y += lift;
       if (floor) place.y = *floor + (plants[i].part == &foot.heel ? heel_height : ball_height);
       auto& own = plants[i].part == &foot.heel ? places.heel : places.ball;
       for (std::size_t t = plants[i].run.start; t < plants[i].run.end; ++t) {

@@ -16,7 +16,8 @@ struct PlantPositions {
 // A plant is put in the middle of where its point was, so that the foot moves least. Plants of heel and ball
 // that overlap or follow at once form one stand: the ball lies at the foot's own length from the heel, in the
 // foot's mean direction. `floor`: the world height to put every plant on, keeping how far heel and ball
-// usually stand above `contacts_floor`; without it each plant keeps its own height.
+// usually stand above `contacts_floor`; without it each stand is put at the height that the contacts knew for
+// it, or keeps its own.
 PlantPositions plant_positions(const FootTrack& foot, double fps, std::optional<double> floor,
                                double contacts_floor);
 

@@ -21,6 +21,9 @@ Json contacts_json(const Value& value) {
     Json::Array planted;  // [start, end) of each plant
     for (const Run& run : runs_of(point.planted)) planted.push_back(Json::Array{run.start, run.end});
     entry["planted"] = std::move(planted);
+    Json::Array heights;  // of the ground under each plant, m
+    for (double height : point.heights) heights.push_back(height);
+    if (!heights.empty()) entry["heights"] = std::move(heights);
     points.push_back(std::move(entry));
   }
   Json::Object out;
@@ -53,6 +56,14 @@ ValuePtr contacts_of_json(const Json& json) {
       if (ends.size() != 2 || ends[0] >= ends[1] || ends[1] > contacts->frames)
         bad_analysis(run, fmt::format("a plant is [start, end) within {} frames", contacts->frames));
       std::fill(point.planted.begin() + ends[0], point.planted.begin() + ends[1], true);
+    }
+    if (const Json* heights = entry.find("heights")) {
+      for (const Json& height : list_member(entry, "heights")) {
+        if (!height.is_number()) bad_analysis(height, "a height is a number of metres");
+        point.heights.push_back(height.number());
+      }
+      if (point.heights.size() != runs_of(point.planted).size())
+        bad_analysis(*heights, "\"heights\" has another length than \"planted\"");
     }
     contacts->points.push_back(std::move(point));
   }

@@ -22,6 +22,7 @@ void Contacts::encode(Encoder& out) const {
     out.text(point.joint_name);
     kinegraph::encode(out, point.local);
     encode_flags(out, point.planted);
+    out.f64s(point.heights);
   });
 }
 
@@ -41,6 +42,7 @@ ValuePtr decode_contacts(Decoder& in) {
     point.planted = decode_flags(in);
     if (point.planted.size() != contacts->frames)
       damaged("a foot has flags for other frames than the contacts");
+    point.heights = in.f64s();
     return point;
   });
   return contacts;
@@ -51,6 +53,9 @@ std::optional<NonFinite> Contacts::non_finite() const {
   if (!std::isfinite(floor)) return NonFinite{"floor", "", {}};
   for (const FootPoint& point : points)
     if (!is_finite(point.local)) return NonFinite{"foot point", point.joint_name, {}};
+  for (const FootPoint& point : points)
+    for (double height : point.heights)
+      if (!std::isfinite(height)) return NonFinite{"height of a plant", point.joint_name, {}};
   return {};
 }
 

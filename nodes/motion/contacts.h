@@ -17,6 +17,9 @@ struct FootPoint {
   std::string joint_name;
   Vec3 local;                 // in the joint's frame, m; zero = the joint itself
   std::vector<bool> planted;  // one flag a frame
+  // World height of each plant (each of runs_of(planted)) in the motion it was found in, m: where the ground
+  // is there. Empty where that motion is not known.
+  std::vector<double> heights;
 };
 
 class Contacts final : public Value {
