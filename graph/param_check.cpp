@@ -190,13 +190,20 @@ class Checker {
   }
 
   void check_either(const ParamType& type, const Json& value, const std::string& where) {
-    // The complaint of the alternative that the value comes nearest to: one that takes its kind at all.
+    // The complaint of the alternative that the value comes nearest to: one that takes its kind at all, and
+    // among objects that a choice tells apart the one whose choice it has.
     std::optional<Diagnostics> nearest_complaint;
+    bool nearest_has_choice = false;
     for (const ParamType& part : type.parts) {
       Diagnostics complaint = kinegraph::check(part, value, where);
       if (complaint.empty()) return;
       const bool right_kind = complaint.front().param != where || complaint.front().code != "wrong-type";
-      if (right_kind && !nearest_complaint) nearest_complaint = std::move(complaint);
+      if (!right_kind) continue;
+      const bool has_choice = std::none_of(complaint.begin(), complaint.end(),
+                                           [](const Diagnostic& d) { return d.code == "bad-choice"; });
+      if (nearest_complaint && (nearest_has_choice || !has_choice)) continue;
+      nearest_complaint = std::move(complaint);
+      nearest_has_choice = has_choice;
     }
     if (!nearest_complaint) return wrong_type(type, value, where);
     for (Diagnostic& diagnostic : *nearest_complaint) problems_.push_back(std::move(diagnostic));

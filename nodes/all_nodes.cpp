@@ -15,6 +15,10 @@ namespace kinegraph {
 // One line a type: the function is defined in NAME_node.cpp of its family's folder.
 NodeType gait_node();
 NodeType ica_node();
+NodeType component_edit_node();
+NodeType component_meaning_node();
+NodeType component_motion_node();
+NodeType component_project_node();
 NodeType detect_contacts_node();
 NodeType footskate_node();
 NodeType quat_stats_node();
@@ -56,6 +60,10 @@ Registry all_nodes() {
                          .decode = decode_components});
   registry.add(gait_node());
   registry.add(ica_node());
+  registry.add(component_edit_node());
+  registry.add(component_meaning_node());
+  registry.add(component_motion_node());
+  registry.add(component_project_node());
   registry.add(detect_contacts_node());
   registry.add(footskate_node());
   registry.add(quat_stats_node());

@@ -1,0 +1,47 @@
+// What each component does [Cao §4.3]: how much it tells clips of different emotion apart, which parts of the
+// body it moves, how fast it swings.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "graph/work.h"
+#include "nodes/components/component_ref.h"
+#include "nodes/components/components.h"
+
+namespace kinegraph {
+
+// The most regular period of the signal, in Hz: the highest peak of its autocorrelation after it first falls
+// below zero, over all segments together; none where no peak reaches 0.3.
+std::optional<double> cadence_of(const Components& components, std::size_t entry);
+
+// How far a component moves each joint or point: root mean square over its signals, in metres, for rotations
+// in radians (for quaternions in parts of the unit sphere). The largest first.
+struct Moved {
+  std::string label;
+  double amount = 0;
+};
+std::vector<Moved> moved_by(const Components& components, std::size_t entry);
+
+struct MeaningParams {
+  std::vector<std::pair<std::int64_t, std::int64_t>>
+      pairs;  // segments of equal content and different emotion
+  std::vector<std::string> align;
+  std::vector<ComponentRef> emotion;  // E; empty: the component with the largest d_emotion
+  std::vector<std::pair<std::string, std::string>> regions;  // name and pattern of joints
+};
+struct ComponentMeaning {
+  std::vector<std::optional<double>> d_emotion;  // a component
+  std::vector<std::size_t> emotion;              // E, entries from 0
+  std::vector<std::vector<double>> d_region;     // [region][component], metres; negative = contributes
+};
+// d_emotion,j = (Σ_pairs Σ_t (u_j - v_j)² / Σ_pairs q)^½ over the q rows of each pair's path. With
+// x_A = E{x} + P A Σ_{i∈A} uᵢ eᵢ and d(x_A, x_B) = (mean over frames of the mean over the region's points of
+// ‖x_A - x_B‖²)^½: d_region,i = d(x_{E∪{i}}, x_all) - d(x_E, x_all), and for i of E, where that would be 0,
+// d(x_E, x_all) - d(x_{E∖{i}}, x_all). Throws Failure: "unknown-segment", "unknown-component",
+// "unknown-joint", "no-joints" at regions.
+ComponentMeaning component_meaning(const Components& components, const MeaningParams& params, Work& work);
+
+}  // namespace kinegraph

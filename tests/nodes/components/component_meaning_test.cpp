@@ -1,0 +1,143 @@
+#include "nodes/components/component_meaning.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "nodes/components/alignment.h"
+#include "nodes/judge/metrics.h"
+#include "tests/nodes/components/clips.h"
+#include "tests/nodes/run_node.h"
+
+namespace kinegraph {
+NodeType component_meaning_node();
+namespace {
+
+// Three points; u1 moves the first and differs between the two segments, u2 moves the second, u3 the first
+// and third.
+Components three() {
+  Components c;
+  c.space.of_motions = false;
+  c.space.labels = {"brow", "jaw", "ear"};
+  c.fps = 50;
+  c.mean.assign(9, 0);
+  c.mixing = Rows(9, 3);
+  c.mixing(1, 0) = 2;
+  c.mixing(4, 1) = 1;
+  c.mixing(2, 2) = 0.5;
+  c.mixing(8, 2) = 0.25;
+  c.signals = Rows(3, 200);
+  for (std::size_t t = 0; t < 200; ++t) {
+    c.signals(0, t) = (t < 100 ? 1.2 : -1.2) + 0.1 * sine(0.9 * static_cast<double>(t));
+    c.signals(1, t) = sine(2 * pi * static_cast<double>(t % 100) / 25);
+    c.signals(2, t) = cosine(2 * pi * static_cast<double>(t % 100) / 25);
+  }
+  c.shares = {0.7, 0.2, 0.1};
+  for (std::size_t start : {0, 100}) {
+    const auto clip = std::make_shared<const Points>(c.space.labels, 50, 100);
+    c.segments.push_back({start, start + 100, nullptr, clip, {}});
+  }
+  return c;
+}
+double rms(const Components& c, std::size_t i) {
+  double sum = 0;
+  for (std::size_t t = 0; t < c.frames(); ++t)
+    sum += c.signals(i, t) * c.signals(i, t) / static_cast<double>(c.frames());
+  return std::sqrt(sum);
+}
+
+TEST(ComponentMeaningOf, MeasuresHowClipsDifferAfterAlignment) {
+  Alone work;
+  const Components c = three();
+  MeaningParams params;
+  params.pairs = {{0, 1}};
+  params.align = {"u2", "u3"};
+  const ComponentMeaning meaning = component_meaning(c, params, work);
+  const Correspondence path = aligned_segments(c, c.segments[0], c.segments[1], {"u2", "u3"}, "align", work);
+  for (std::size_t j = 0; j < 3; ++j) {
+    double sum = 0;
+    for (const auto& [a, b] : path.pairs) {
+      const double d = c.signals(j, a) - c.signals(j, 100 + b);
+      sum += d * d;
+    }
+    EXPECT_NEAR(*meaning.d_emotion[j], std::sqrt(sum / static_cast<double>(path.pairs.size())), 1e-12);
+  }
+  EXPECT_EQ(meaning.emotion, std::vector<std::size_t>{0}) << "u1 tells them apart";
+}
+
+TEST(ComponentMeaningOf, MeasuresWhatEachAddsToARegion) {
+  Alone work;
+  const Components c = three();
+  MeaningParams params;
+  params.pairs = {{0, 1}};
+  params.align = {"u2"};
+  params.regions = {{"brow", "brow"}, {"jaw", "jaw"}, {"both", "brow,jaw"}};
+  const auto d = component_meaning(c, params, work).d_region;
+  // Only what is missing counts: of the brow u3 (0.5), of the jaw u2 (1).
+  EXPECT_NEAR(d[0][1], 0, 1e-12);
+  EXPECT_NEAR(d[0][2], -0.5 * rms(c, 2), 1e-12);
+  EXPECT_NEAR(d[1][1], -1 * rms(c, 1), 1e-12);
+  EXPECT_NEAR(d[1][2], 0, 1e-12);
+  // u1 is E itself: d(x_E, x_all) - d(mean, x_all).
+  double with = 0, without = 0;
+  for (std::size_t t = 0; t < 200; ++t) {
+    const double y = 2 * c.signals(0, t), z = 0.5 * c.signals(2, t);
+    with += z * z / 200;
+    without += (y * y + z * z) / 200;
+  }
+  EXPECT_NEAR(d[0][0], std::sqrt(with) - std::sqrt(without), 1e-12);
+  EXPECT_NEAR(d[2][1], std::sqrt(with / 2) - std::sqrt((with + rms(c, 1) * rms(c, 1)) / 2), 1e-12);
+}
+
+TEST(ComponentMeaningOf, FindsCadenceAndWhatMoves) {
+  const Components c = three();
+  EXPECT_NEAR(*cadence_of(c, 1), 2, 0.05);
+  const auto moved = moved_by(c, 2);
+  EXPECT_EQ(moved[0].label, "brow");
+  EXPECT_NEAR(moved[0].amount, 0.5 * rms(c, 2), 1e-12);
+  EXPECT_EQ(moved[1].label, "ear");
+}
+
+TEST(ComponentMeaningNode, NamesItsMetrics) {
+  NodeInMemory node(component_meaning_node());
+  node.link("components", three()).set("regions", Json::Object{{"upper face", "brow,ear"}}).run();
+  const auto& metrics = node.out<Metrics>("metrics");
+  for (const char* name :
+       {"u1.d_emotion", "u1.d_region.upper_face", "u1.variance", "u2.cadence", "u3.moves.brow"})
+    EXPECT_TRUE(metrics.find(name)) << name;
+  EXPECT_EQ(metrics.find("u1.variance")->value, 0.7);
+}
+
+TEST(ComponentMeaningNode, LeavesEmotionOpenForASingleClip) {
+  Components c = three();
+  c.segments.pop_back();
+  NodeInMemory node(component_meaning_node());
+  node.link("components", c).run();
+  EXPECT_FALSE(node.out<Metrics>("metrics").find("u1.d_emotion")->value);
+}
+
+TEST(ComponentMeaningNode, TellsWhatIsWrong) {
+  NodeInMemory pairs(component_meaning_node()), regions(component_meaning_node());
+  pairs.link("components", three()).set("pairs", Json::Array{Json::Array{0, 5}});
+  EXPECT_EQ(pairs.refusal().code, "unknown-segment");
+  regions.link("components", three()).set("regions", Json::Object{{"face", "nose"}});
+  EXPECT_EQ(regions.refusal().code, "unknown-joint");
+}
+
+// Arms and legs of a walk: rotations count where they move the joints.
+TEST(ComponentMeaningOfMotions, MeasuresRegionsInMetresForEveryRepresentation) {
+  Alone work;
+  for (Representation representation : {Representation::points, Representation::logarithm}) {
+    const Components c =
+        analysed({shared(gait("walk", 2)), shared(gait("sneak", 2))}, representation, 3, work);
+    MeaningParams params;
+    params.pairs = {{0, 1}};
+    params.regions = {{"legs", "*Leg*"}};
+    const auto d = component_meaning(c, params, work).d_region[0];
+    for (double value : d) EXPECT_LT(std::fabs(value), 0.5);
+    EXPECT_LT(*std::min_element(d.begin(), d.end()), -0.005);
+  }
+}
+
+}  // namespace
+}  // namespace kinegraph
