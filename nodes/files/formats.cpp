@@ -7,6 +7,8 @@
 #include "nodes/files/bvh_read.h"
 #include "nodes/files/bvh_write.h"
 #include "nodes/files/c3d.h"
+#include "nodes/files/gltf_file.h"
+#include "nodes/files/gltf_read.h"
 #include "nodes/files/points_table.h"
 #include "nodes/files/text_place.h"
 #include "nodes/files/trc.h"
@@ -91,6 +93,19 @@ MotionFile read_csv_file(const FileToRead& file, Work& work) {
   return with_points(read_points_table(file.bytes, file.options, work));
 }
 
+MotionFile read_gltf_contents(const FileToRead& file, Work& work) {
+  GltfContents gltf = read_gltf(file.bytes, file.path, file.options, file.files, work);
+  MotionFile result = with_motion(std::move(gltf.motion));
+  if (gltf.character) result.contents.push_back({"character", gltf.character});
+  result.companions = gltf.companions;
+  return result;
+}
+
+std::vector<std::string> companions_of_gltf(const std::string& path, const ReadOptions&, FileAccess& files) {
+  if (!files.exists(path)) return {};
+  return gltf_companions(*files.read(path), path);
+}
+
 const Points& points_of(const FileToWrite& file) {
   return dynamic_cast<const Points&>(*file.contents.front().value);
 }
@@ -135,7 +150,7 @@ const std::vector<ReadFormat>& read_formats() {
   static const std::vector<ReadFormat> formats = {
       {"bvh", "Biovision hierarchy", {"bvh"}, read_bvh_file},
       {"asf-amc", "Acclaim skeleton and motion", {"amc", "asf"}, read_acclaim_file, acclaim_companions},
-      {"gltf", "glTF 2.0, text or binary", {"glb", "gltf"}},
+      {"gltf", "glTF 2.0, text or binary", {"glb", "gltf"}, read_gltf_contents, companions_of_gltf},
       {"c3d", "C3D markers", {"c3d"}, read_c3d_file},
       {"trc", "TRC markers", {"trc"}, read_trc_file},
       {"csv", "Points as a table", {"csv"}, read_csv_file},

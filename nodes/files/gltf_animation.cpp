@@ -1,0 +1,209 @@
+#include "nodes/files/gltf_animation.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "nodes/files/decimal.h"
+
+namespace kinegraph {
+
+namespace {
+
+enum class Between { step, linear, cubic };
+
+// One channel: keys and their values, `width` numbers each.
+class Sampler {
+ public:
+  Sampler(const GltfFile& file, const tinygltf::AnimationSampler& sampler, std::size_t width, bool scalars)
+      : width_(width), times_(gltf_numbers(file, sampler.input, 1)) {
+    between_ = sampler.interpolation == "STEP"          ? Between::step
+               : sampler.interpolation == "CUBICSPLINE" ? Between::cubic
+                                                        : Between::linear;
+    for (std::size_t i = 1; i < times_.size(); ++i)
+      if (!(times_[i] > times_[i - 1])) bad_gltf("an animation's times don't rise");
+    // Weights of morph targets are scalars, several a key.
+    values_ = gltf_numbers(file, sampler.output, scalars ? 1 : static_cast<int>(width));
+    if (times_.empty() || values_.size() != times_.size() * width * (between_ == Between::cubic ? 3 : 1))
+      bad_gltf("an animation has other numbers of times and values");
+  }
+  const std::vector<double>& times() const { return times_; }
+
+  // Into `out`, `width` numbers. A time within 1e-5 s of a key is the key's: keys are rounded to float32.
+  void at(double time, bool turns, double* out) const {
+    const auto after = std::upper_bound(times_.begin(), times_.end(), time + 1e-5);
+    const std::size_t b = static_cast<std::size_t>(after - times_.begin());
+    const std::size_t a = b == 0 ? 0 : b - 1;
+    const bool on_key = b == 0 || b == times_.size() || time - times_[a] <= 1e-5;
+    if (on_key || between_ == Between::step) {
+      std::copy_n(value(a), width_, out);
+      return;
+    }
+    const double span = times_[b] - times_[a], u = (time - times_[a]) / span;
+    const double *p = value(a), *q = value(b);
+    if (between_ == Between::cubic) {
+      // Values stand between their in- and out-tangents.
+      const double *leave = p + width_, *arrive = q - width_;
+      const double uu = u * u, uuu = uu * u;
+      for (std::size_t k = 0; k < width_; ++k)
+        out[k] = (2 * uuu - 3 * uu + 1) * p[k] + span * (uuu - 2 * uu + u) * leave[k] +
+                 (3 * uu - 2 * uuu) * q[k] + span * (uuu - uu) * arrive[k];
+      return;
+    }
+    if (turns) {
+      const Quat between =
+          slerp(u, normalized(Quat{p[0], p[1], p[2], p[3]}), normalized(Quat{q[0], q[1], q[2], q[3]}));
+      out[0] = between.x, out[1] = between.y, out[2] = between.z, out[3] = between.w;
+      return;
+    }
+    for (std::size_t k = 0; k < width_; ++k) out[k] = p[k] + u * (q[k] - p[k]);
+  }
+
+ private:
+  const double* value(std::size_t key) const {
+    return values_.data() + width_ * (between_ == Between::cubic ? 3 * key + 1 : key);
+  }
+  std::size_t width_;
+  Between between_ = Between::linear;
+  std::vector<double> times_, values_;
+};
+
+const tinygltf::Animation* chosen_clip(const tinygltf::Model& model, const std::string& wanted) {
+  const auto& all = model.animations;
+  if (wanted.empty()) return all.empty() ? nullptr : &all.front();
+  for (const tinygltf::Animation& one : all)
+    if (one.name == wanted) return &one;
+  double index = -1;
+  if (whole_number_text(wanted, index) && index >= 0 && index < static_cast<double>(all.size()) &&
+      index == std::floor(index))
+    return &all[static_cast<std::size_t>(index)];
+  std::vector<std::string> names;
+  for (const tinygltf::Animation& one : all) names.push_back(one.name);
+  throw Failure(
+      error("unknown-clip", fmt::format("there is no clip \"{}\" among the file's {}", wanted, all.size()))
+          .hinting(all.empty() ? "leave clip empty" : suggestion(wanted, names))
+          .at_param("clip"));
+}
+
+// The lowest whole rate on whose frames all times lie; 0 = none.
+double rate_of_keys(const std::set<double>& times) {
+  for (int rate = 24; rate <= 240; ++rate)
+    if (std::all_of(times.begin(), times.end(), [&](double time) {
+          const double frame = time * rate;
+          return std::fabs(frame - std::floor(frame + 0.5)) <= 1e-3;
+        }))
+      return rate;
+  return 0;
+}
+
+struct Channel {
+  int node;
+  std::string path;
+  Sampler sampler;
+};
+
+}  // namespace
+
+GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFacts& facts,
+                   const ReadOptions& options, Work& work) {
+  const tinygltf::Model& model = *file.model;
+  const tinygltf::Animation* clip = chosen_clip(model, options.clip);
+  const auto source = std::make_shared<const SourceFacts>(facts);
+  std::vector<Channel> channels;
+  std::set<double> times;
+  if (clip) {
+    for (const tinygltf::AnimationChannel& channel : clip->channels) {
+      if (channel.target_node < 0 || channel.target_node >= static_cast<int>(model.nodes.size())) continue;
+      if (channel.sampler < 0 || channel.sampler >= static_cast<int>(clip->samplers.size()))
+        bad_gltf("an animation's channel has no sampler");
+      std::size_t width = channel.target_path == "rotation" ? 4 : 3;
+      if (channel.target_path == "weights") {
+        const int mesh = model.nodes[channel.target_node].mesh;
+        if (mesh < 0 || mesh >= static_cast<int>(model.meshes.size()) ||
+            model.meshes[mesh].primitives.empty())
+          continue;
+        width = model.meshes[mesh].primitives.front().targets.size();
+        if (width == 0) continue;
+      }
+      channels.push_back(
+          {channel.target_node, channel.target_path,
+           Sampler(file, clip->samplers[channel.sampler], width, channel.target_path == "weights")});
+      times.insert(channels.back().sampler.times().begin(), channels.back().sampler.times().end());
+    }
+  } else {
+    work.report(info("no-clip", "the file has no animation; the motion is one frame at rest"));
+  }
+  const bool cut = options.range.start != 0 || options.range.end || options.drop_rest_frame;
+  double fps = options.fps > 0 && !cut ? options.fps : rate_of_keys(times);
+  if (fps == 0) {
+    fps = 60;
+    work.report(info("resampled", "the keys lie on no whole frame rate; the clip is sampled at 60"));
+  }
+  const double last = times.empty() ? 0 : *times.rbegin();
+  if (!(last * fps < 1e8)) bad_gltf("the animation is too long");
+  const std::size_t whole = static_cast<std::size_t>(std::floor(std::max(last, 0.0) * fps + 1e-3)) + 1;
+  const FrameWindow window = frames_to_keep(options, whole);
+  const std::size_t frames = window.last - window.first;
+  auto time_of = [&](std::size_t t) { return static_cast<double>(window.first + t) / fps; };
+
+  const Skeleton& skeleton = *nodes.skeleton;
+  std::vector<bool> translates(skeleton.joints.size());
+  if (!translates.empty()) translates[0] = true;
+  std::vector<double> value(4);
+  for (const Channel& channel : channels) {
+    const int joint = nodes.joint_of_node[channel.node];
+    if (joint < 0 || channel.path != "translation") continue;
+    const Vec3 rest = skeleton.joints[joint].offset;
+    for (std::size_t t = 0; t < frames && !translates[joint]; ++t) {
+      channel.sampler.at(time_of(t), false, value.data());
+      const Vec3 place = nodes.scale_of_parent[joint] * Vec3{value[0], value[1], value[2]};
+      translates[joint] = norm(place - rest) > 1e-7 + 1e-5 * norm(rest);
+    }
+  }
+  GltfClip out{Motion(nodes.skeleton, source, fps, frames, translates), {}};
+  std::string scaled;
+  for (const Channel& channel : channels) {
+    work.check();
+    const int joint = nodes.joint_of_node[channel.node];
+    if (channel.path == "weights") {
+      const std::size_t targets =
+          model.meshes[model.nodes[channel.node].mesh].primitives.front().targets.size();
+      std::vector<double> weights(targets);
+      const std::size_t first = out.morphs.size();
+      for (std::size_t k = 0; k < targets; ++k)
+        out.morphs.push_back({channel.node, static_cast<int>(k), std::vector<double>(frames)});
+      for (std::size_t t = 0; t < frames; ++t) {
+        channel.sampler.at(time_of(t), false, weights.data());
+        for (std::size_t k = 0; k < targets; ++k) out.morphs[first + k].weights[t] = weights[k];
+      }
+      continue;
+    }
+    if (joint < 0) continue;
+    for (std::size_t t = 0; t < frames; ++t) {
+      channel.sampler.at(time_of(t), channel.path == "rotation", value.data());
+      if (channel.path == "rotation") {
+        out.motion.rotation(joint).set(t, normalized(Quat{value[0], value[1], value[2], value[3]}));
+      } else if (channel.path == "translation" && translates[joint]) {
+        out.motion.translation(joint).set(t,
+                                          nodes.scale_of_parent[joint] * Vec3{value[0], value[1], value[2]});
+      } else if (channel.path == "scale" && scaled.empty()) {
+        const Vec3 rest = nodes.local[channel.node].scale;
+        if (norm(Vec3{value[0], value[1], value[2]} - rest) > 1e-3 * norm(rest))
+          scaled = skeleton.joints[joint].name;
+      }
+    }
+    if (channel.path == "rotation") {
+      const auto track = out.motion.rotation(joint);
+      make_continuous(track.x, track.y, track.z, track.w);
+    }
+  }
+  if (!scaled.empty())
+    work.report(warning("scale-animation", "scales that vary over time are left out, first of " + scaled)
+                    .at_joint(scaled));
+  return out;
+}
+
+}  // namespace kinegraph
