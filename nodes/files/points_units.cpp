@@ -8,6 +8,7 @@
 
 #include "nodes/files/decimal.h"
 #include "nodes/files/text_place.h"
+#include "nodes/motion/elementary.h"
 #include "nodes/motion/fill_gaps.h"
 
 namespace kinegraph {
@@ -115,8 +116,7 @@ Vec3 in_file(Vec3 metres, const LengthUnit& unit, UpAxis up) {
 double rate_of_times(std::span<const double> times, int decimals) {
   const double first = times.front();
   // A time stands for any that is rounded to it; two of them make a span.
-  const double slack =
-      std::pow(10.0, -decimals) + 1e-13 * std::max(std::fabs(first), std::fabs(times.back()));
+  const double slack = power(10.0, -decimals) + 1e-13 * std::max(std::fabs(first), std::fabs(times.back()));
   auto farthest = [&](double step, std::size_t count) {
     double most = 0;
     for (std::size_t k = 0; k < count; ++k)

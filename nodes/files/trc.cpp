@@ -9,6 +9,7 @@
 #include "nodes/files/points_units.h"
 #include "nodes/files/text_lines.h"
 #include "nodes/files/text_place.h"
+#include "nodes/motion/elementary.h"
 
 namespace kinegraph {
 
@@ -141,7 +142,7 @@ double rate_of(const Header& header, const Rows& rows, Work& work) {
   // Times that were rounded coarsely mean DataRate where it fits them.
   const double steps = static_cast<double>(rows.times.size() - 1);
   const double span = rows.times.back() - rows.times.front();
-  if (header.rate > 0 && std::fabs(steps / header.rate - span) <= std::pow(10.0, -rows.decimals))
+  if (header.rate > 0 && std::fabs(steps / header.rate - span) <= power(10.0, -rows.decimals))
     return header.rate;
   if (header.rate > 0)
     work.report(warning("rate-differs", fmt::format("DataRate is {:g}, the times are those of {:g} frames a "
