@@ -1,8 +1,11 @@
 #include "gui/viewer/looked_at.h"
 
 #include <algorithm>
+#include <cctype>
 #include <deque>
+#include <initializer_list>
 #include <set>
+#include <string_view>
 
 namespace kinegraph {
 namespace {
@@ -23,6 +26,25 @@ std::vector<Target> links_into(const Document& document, const Registry& registr
     for (const InputPort& port : type->inputs) take(port.name);
   for (const auto& [port, inputs] : node.inputs) take(port);
   return all;
+}
+
+// A Load has a port for everything that files can hold; what its file's ending speaks against isn't asked
+// for, as that would be an error of the node.
+bool may_make(const Node& node, const std::string& type) {
+  if (node.type != "Load") return true;
+  auto file = node.params.find("file");
+  if (file == node.params.end() || !file->second.is_string()) return true;
+  std::string path = file->second.string();
+  std::transform(path.begin(), path.end(), path.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto ends = [&](std::initializer_list<std::string_view> endings) {
+    return std::any_of(endings.begin(), endings.end(), [&](std::string_view e) { return path.ends_with(e); });
+  };
+  if (ends({".bvh", ".amc", ".asf"})) return type == "Motion";
+  if (ends({".c3d", ".trc", ".csv"})) return type == "Points" || (path.ends_with(".csv") && type != "Motion");
+  if (ends({".glb", ".gltf"})) return type == "Motion" || type == "Character";
+  if (ends({".json"})) return type != "Motion" && type != "Points" && type != "Character";
+  return true;
 }
 
 std::string type_of(const Document& document, const Registry& registry, const Target& target, int depth) {
@@ -49,7 +71,7 @@ std::vector<Target> outputs_of(const Document& document, const Registry& registr
                                const std::string& type) {
   std::vector<Target> all;
   auto found = document.nodes.find(node);
-  if (found == document.nodes.end()) return all;
+  if (found == document.nodes.end() || !may_make(found->second, type)) return all;
   if (const NodeType* node_type = registry.find(found->second.type))
     for (const OutputPort& port : node_type->outputs)
       if (type_of_output(document, registry, {node, port.name}) == type) all.push_back({node, port.name});

@@ -72,10 +72,10 @@ void find_bones(ShownMotion& shown, const Skeleton& skeleton, const Figure& figu
     if (length < 0.003 * height || !skeleton.is_below(end.joint, figure.body())) continue;
     const bool head =
         skeleton.joints[static_cast<std::size_t>(end.joint)].name.find("ead") != std::string::npos;
-    const float thick = static_cast<float>((head ? 0.045 : 0.011) * height);
+    const float thick = static_cast<float>((head ? 0.042 : 0.011) * height);
     shown.bones.push_back({end.joint, point,
                            head ? thick : std::min(thick, static_cast<float>(0.45 * length)),
-                           side_of(end.joint), static_cast<float>(length), -1});
+                           side_of(end.joint), static_cast<float>(length), -1, head});
   }
 }
 

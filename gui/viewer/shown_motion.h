@@ -24,6 +24,7 @@ struct ShownMotion {
     Side side = Side::middle;
     float rest_length = 0;  // m
     int joint = -1;         // whose link it is: the joint `to` is, -1 for an End Site
+    bool head = false;      // drawn as a head: thick, and off the neck
   };
 
   ValuePtr value;  // what it was made from, kept alive

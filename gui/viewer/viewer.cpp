@@ -1,13 +1,30 @@
 #include "gui/viewer/viewer.h"
 
+#include <QAction>
+#include <QComboBox>
 #include <QImage>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QMenu>
+#include <QToolBar>
+#include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
 
 #include "gui/viewer/looked_at.h"
+#include "gui/viewer/motion_scene.h"
+#include "gui/viewer/stage.h"
 
 namespace kinegraph {
+namespace {
+
+bool same_targets(const std::vector<Target>& a, const std::vector<Target>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Target& x, const Target& y) { return x.node == y.node && x.port == y.port; });
+}
+
+}  // namespace
 
 Viewer::Viewer(Session& session, Evaluation& evaluation, Playback& playback, QWidget* parent)
     : QWidget(parent),
@@ -21,8 +38,11 @@ Viewer::Viewer(Session& session, Evaluation& evaluation, Playback& playback, QWi
   connect(&session_, &Session::selection_changed, this, &Viewer::find_wanted);
   connect(&session_, &Session::meaning_changed, this, &Viewer::find_wanted);
   connect(&evaluation_, &Evaluation::values_changed, this, &Viewer::take_values);
+  connect(&evaluation_, &Evaluation::status_changed, this, &Viewer::update_words);
   connect(&motions_, &ShownMotions::made, this, &Viewer::take_values);
   connect(&playback_, &Playback::moved, this, &Viewer::update_scene);
+  connect(&playback_, &Playback::state_changed, this, &Viewer::update_scene);
+  set_theme(*theme_);
   find_wanted();
 }
 
@@ -31,13 +51,102 @@ Viewer::~Viewer() = default;
 void Viewer::build() {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  words_ = new QLabel(this);
+  column->setSpacing(0);
+  auto* bar = new QToolBar(tr("Viewer tools"), this);
+  column->addWidget(bar);
+  stage_ = new Stage(this);
+  column->addWidget(stage_, 1);
+
+  arrange_ = new QComboBox(this);
+  arrange_->addItems({tr("Side by side"), tr("Overlaid"), tr("Wipe")});
+  arrange_->setAccessibleName(tr("Arrangement of several motions"));
+  arrange_->setToolTip(tr("How several motions are shown (W)"));
+  connect(arrange_, &QComboBox::activated, this,
+          [this](int index) { set_arrangement(static_cast<Arrangement>(index)); });
+  bar->addWidget(arrange_);
+  build_places(*bar);
+  bar->addSeparator();
+  follow_ = bar->addAction(tr("Follow"));
+  follow_->setCheckable(true);
+  follow_->setChecked(looks_.follow);
+  follow_->setToolTip(tr("The camera goes along with the root (R)"));
+  connect(follow_, &QAction::toggled, this, &Viewer::set_follow);
+  frame_ = bar->addAction(tr("Frame"));
+  frame_->setToolTip(tr("Shows all of it (F)"));
+  connect(frame_, &QAction::triggered, this, &Viewer::frame_all);
+  build_show_menu();
+  bar->addWidget(show_);
+
+  words_ = new QLabel(stage_);
   words_->setAlignment(Qt::AlignCenter);
-  column->addWidget(words_);
+  words_->setWordWrap(true);
+  words_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  auto* over = new QVBoxLayout(stage_);
+  over->addWidget(words_);
+
+  connect(stage_, &Stage::wipe_moved, this, &Viewer::update_scene);
+  connect(stage_, &Stage::clicked, this, [this] { setFocus(Qt::MouseFocusReason); });
+}
+
+void Viewer::build_places(QToolBar& bar) {
+  for (int place = 1; place <= places; ++place) {
+    QAction* action = bar.addAction(QString::number(place));
+    action->setCheckable(true);
+    action->setToolTip(tr("Pins the current node to place %1, or empties it (%1)").arg(place));
+    connect(action, &QAction::triggered, this, [this, place] { toggle_pin(place); });
+    place_actions_[static_cast<std::size_t>(place - 1)] = action;
+    if (QWidget* button = bar.widgetForAction(action)) {
+      button->setFixedWidth(20);
+      button->setStyleSheet("padding: 4px 0;");
+      button->setAccessibleName(tr("Place %1").arg(place));
+    }
+  }
+}
+
+void Viewer::build_show_menu() {
+  show_ = new QToolButton(this);
+  show_->setText(tr("Show"));
+  show_->setToolTip(tr("Trails, ghosts, contacts, stretch"));
+  show_->setAccessibleName(tr("What is shown beside the body"));
+  show_->setPopupMode(QToolButton::InstantPopup);
+  auto* menu = new QMenu(show_);
+  show_->setMenu(menu);
+  const auto toggle = [&](const QString& name, bool Looks::*which) {
+    QAction* action = menu->addAction(name);
+    action->setCheckable(true);
+    action->setChecked(looks_.*which);
+    connect(action, &QAction::toggled, this, [this, which](bool on) {
+      looks_.*which = on;
+      update_scene();
+    });
+    return action;
+  };
+  trails_ = toggle(tr("Trails of hands, feet, head and root\tT"), &Looks::trails);
+  contacts_ = toggle(tr("Contacts on the floor\tC"), &Looks::contacts);
+  stretch_ = toggle(tr("Stretched links by colour\tS"), &Looks::stretch);
+  menu->addSeparator();
+  for (int frames : {0, 5, 10, 20, 30, 60, 120}) {
+    QAction* action =
+        menu->addAction(frames == 0 ? tr("No ghosts\tG") : tr("A ghost every %1 frames").arg(frames));
+    action->setCheckable(true);
+    action->setData(frames);
+    connect(action, &QAction::triggered, this, [this, frames] { set_ghosts(frames); });
+    ghosts_.push_back(action);
+  }
+}
+
+void Viewer::set_ghosts(int frames) {
+  looks_.ghosts = frames;
+  update_controls();
+  update_scene();
 }
 
 void Viewer::set_theme(const Theme& theme) {
   theme_ = &theme;
+  QPalette colors = words_->palette();
+  colors.setColor(QPalette::WindowText, theme.faint_text);
+  words_->setPalette(colors);
+  stage_->set_colors(colors_of(theme), theme);
   update_scene();
 }
 
@@ -51,73 +160,306 @@ void Viewer::pin(int place, const std::string& node) {
   find_wanted();
 }
 
+void Viewer::toggle_pin(int place) {
+  const std::string& node = session_.current().empty() ? looked_at_ : session_.current();
+  pin(place, pinned(place) == node ? std::string() : node);
+  update_controls();
+}
+
 void Viewer::set_arrangement(Arrangement arrangement) {
   arrangement_ = arrangement;
+  update_controls();
   update_scene();
 }
 
 void Viewer::set_looks(const Looks& looks) {
+  const bool follow = looks.follow;
   looks_ = looks;
+  looks_.follow = follow_->isChecked();
+  update_controls();
+  set_follow(follow);
+}
+
+void Viewer::set_follow(bool follow) {
+  if (follow != looks_.follow) {
+    // The picture stays as it is: only what the camera's point is counted from changes.
+    for (const Shown& one : shown_)
+      if (one.motion) {
+        const QVector3D ground = ground_under(*one.motion, one.motion->frame_at(playback_.time()));
+        stage_->camera().target += follow ? -ground : ground;
+        break;
+      }
+    looks_.follow = follow;
+    stage_->camera_changed();
+  }
+  update_controls();
   update_scene();
 }
 
 void Viewer::frame_all() {
+  SceneBox box;
+  bool first = true;
+  for (const Shown& one : shown_) {
+    if (!one.motion) continue;
+    const int frame = one.motion->frame_at(playback_.time());
+    SceneBox its = looks_.follow ? box_at(*one.motion, frame) : box_of(*one.motion);
+    if (looks_.follow) {
+      its.low -= ground_under(*one.motion, frame);
+      its.high -= ground_under(*one.motion, frame);
+    }
+    if (first) box = its;
+    first = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], its.low[axis]);
+      box.high[axis] = std::max(box.high[axis], its.high[axis]);
+    }
+  }
+  if (first) return;
+  stage_->camera().frame(box.low, box.high, stage_->size());
+  stage_->camera_changed();
   update_scene();
 }
 
 QImage Viewer::picture() {
-  return grab().toImage();
+  update_scene();
+  return stage_->picture_now(true);
+}
+
+int Viewer::pictures_drawn() const {
+  return stage_->pictures();
 }
 
 bool Viewer::uses_opengl() const {
-  return false;
+  return stage_->uses_opengl();
 }
 
 void Viewer::keyPressEvent(QKeyEvent* event) {
-  QWidget::keyPressEvent(event);
+  constexpr double turn = 24;  // as a drag of so many pixels
+  const auto orbit = [&](double x, double y) {
+    stage_->camera().orbit({x, y});
+    stage_->camera_changed();
+  };
+  const int key = event->key();
+  if (event->modifiers() & (Qt::ControlModifier | Qt::AltModifier)) return QWidget::keyPressEvent(event);
+  if (key >= Qt::Key_1 && key <= Qt::Key_9) return toggle_pin(key - Qt::Key_0);
+  switch (key) {
+    case Qt::Key_0:
+      pins_.fill({});
+      return find_wanted();
+    case Qt::Key_F:
+      return frame_all();
+    case Qt::Key_R:
+      return follow_->toggle();
+    case Qt::Key_T:
+      return trails_->toggle();
+    case Qt::Key_C:
+      return contacts_->toggle();
+    case Qt::Key_S:
+      return stretch_->toggle();
+    case Qt::Key_G:
+      return set_ghosts(looks_.ghosts > 0 ? 0 : 30);
+    case Qt::Key_W:
+      return set_arrangement(static_cast<Arrangement>((static_cast<int>(arrangement_) + 1) % 3));
+    case Qt::Key_Space:
+      return playback_.toggle();
+    case Qt::Key_Left:
+      return orbit(turn, 0);
+    case Qt::Key_Right:
+      return orbit(-turn, 0);
+    case Qt::Key_Up:
+      return orbit(0, turn);
+    case Qt::Key_Down:
+      return orbit(0, -turn);
+    case Qt::Key_Plus:
+    case Qt::Key_Equal:
+    case Qt::Key_Minus:
+      stage_->camera().zoom(key == Qt::Key_Minus ? -1 : 1);
+      return stage_->camera_changed();
+    default:
+      QWidget::keyPressEvent(event);
+  }
 }
 
 void Viewer::find_wanted() {
   const Document& document = session_.document();
+  const Registry& registry = session_.registry();
   if (!session_.current().empty()) looked_at_ = session_.current();
-  if (!document.nodes.count(looked_at_)) looked_at_ = node_to_look_at(document, session_.registry());
+  if (!document.nodes.count(looked_at_)) looked_at_ = node_to_look_at(document, registry);
   std::vector<Shown> shown;
-  for (int place = 1; place <= places; ++place) {
-    const std::string& node = pinned(place);
-    if (node.empty() || !document.nodes.count(node)) continue;
-    if (auto target = nearest_output(document, session_.registry(), node, {"Motion", "Points"}))
-      shown.push_back({place, *target, nullptr, nullptr});
-  }
-  if (shown.empty() && !looked_at_.empty())
-    if (auto target = nearest_output(document, session_.registry(), looked_at_, {"Motion", "Points"}))
-      shown.push_back({0, *target, nullptr, nullptr});
+  const auto add = [&](int place, const std::string& node) {
+    const auto target = nearest_output(document, registry, node, {"Motion", "Points"});
+    if (!target) return;
+    Shown one;
+    one.place = place;
+    one.target = *target;
+    const std::vector<Target> skins = outputs_of(document, registry, target->node, "Character");
+    if (!skins.empty()) one.skin = skins.front();
+    for (const Shown& old : shown_)
+      if (old.target.node == one.target.node && old.target.port == one.target.port) {
+        one.value = old.value;
+        one.motion = old.motion;
+        one.character = old.character;
+      }
+    shown.push_back(std::move(one));
+  };
+  for (int place = 1; place <= places; ++place)
+    if (document.nodes.count(pinned(place))) add(place, pinned(place));
+  if (shown.empty() && !looked_at_.empty()) add(0, looked_at_);
   std::vector<Target> wanted;
-  for (const Shown& one : shown) wanted.push_back(one.target);
+  for (const Shown& one : shown) {
+    wanted.push_back(one.target);
+    if (!one.skin.node.empty()) wanted.push_back(one.skin);
+  }
   shown_ = std::move(shown);
-  const auto same = [](const Target& a, const Target& b) { return a.node == b.node && a.port == b.port; };
-  if (!std::equal(wanted.begin(), wanted.end(), wanted_.begin(), wanted_.end(), same)) {
+  update_controls();
+  take_values();
+  if (!same_targets(wanted, wanted_)) {
     wanted_ = std::move(wanted);
     emit wanted_changed();
   }
-  take_values();
 }
 
 void Viewer::take_values() {
+  bool any = false;
   for (Shown& one : shown_) {
     one.value = evaluation_.value(one.target.node, one.target.port);
+    if (!one.skin.node.empty()) one.character = evaluation_.value(one.skin.node, one.skin.port);
     // While a new value is made ready the old motion stays on the stage.
     if (auto motion = motions_.find(one.value)) one.motion = std::move(motion);
+    any = any || one.motion;
   }
   emit shown_changed();
+  if (any && !framed_) {
+    framed_ = true;
+    frame_all();
+  }
   update_scene();
 }
 
+QColor Viewer::color_of(std::size_t index) const {
+  const QColor colors[] = {theme_->accent, theme_->second, theme_->warning, theme_->missing, theme_->good};
+  return colors[index % std::size(colors)];
+}
+
+QString Viewer::caption_of(const Shown& one) const {
+  const QString name = QString::fromStdString(one.target.node);
+  return one.place > 0 ? QString("%1  %2").arg(one.place).arg(name) : name;
+}
+
 void Viewer::update_scene() {
+  std::vector<SceneCell> cells;
+  std::vector<Stage::Caption> captions;
+  SceneLooks looks;
+  looks.trails = looks_.trails;
+  looks.contacts = looks_.contacts;
+  looks.stretch = looks_.stretch;
+  looks.ghosts = looks_.ghosts;
+  const double seconds = playback_.time();
+  const auto followed = [&](const Shown& one) {
+    return looks_.follow ? ground_under(*one.motion, one.motion->frame_at(seconds)) : QVector3D();
+  };
+  std::vector<const Shown*> ready;
+  for (const Shown& one : shown_)
+    if (one.motion) ready.push_back(&one);
+  const bool one_stage = arrangement_ == Arrangement::overlaid && ready.size() > 1;
+  const bool wipe = arrangement_ == Arrangement::wipe && ready.size() > 1;
+  if (one_stage) {
+    SceneCell cell;
+    cell.scene.camera_shift = followed(*ready.front());
+    for (std::size_t i = 0; i < ready.size(); ++i) {
+      looks.second = i > 0;
+      looks.opacity = i > 0 ? 0.5f : 1.0f;
+      add_motion(cell.scene, *ready[i]->motion, seconds, looks, *theme_, ready[i]->character);
+      captions.push_back(
+          {QRectF(0, 0, 1, 1), caption_of(*ready[i]), i > 0 ? theme_->second : theme_->bone, false});
+      captions.back().cell.setTop(0.045 * static_cast<double>(i));
+    }
+    cells.push_back(std::move(cell));
+  } else if (wipe) {
+    const double at = stage_->wipe();
+    for (std::size_t i = 0; i < 2; ++i) {
+      SceneCell cell;
+      cell.scene.camera_shift = followed(*ready.front());
+      cell.clip = i == 0 ? QRectF(0, 0, at, 1) : QRectF(at, 0, 1 - at, 1);
+      add_motion(cell.scene, *ready[i]->motion, seconds, looks, *theme_, ready[i]->character);
+      captions.push_back({cell.clip, caption_of(*ready[i]), color_of(i), i == 1});
+      cells.push_back(std::move(cell));
+    }
+  } else {
+    const int count = static_cast<int>(ready.size());
+    const double shape = static_cast<double>(std::max(1, stage_->width())) / std::max(1, stage_->height());
+    const int columns =
+        std::clamp(static_cast<int>(std::ceil(std::sqrt(count * shape * 1.4))), 1, std::max(1, count));
+    const int rows = count > 0 ? (count + columns - 1) / columns : 1;
+    for (int i = 0; i < count; ++i) {
+      const Shown& one = *ready[static_cast<std::size_t>(i)];
+      SceneCell cell;
+      // The last row's cells are wider where it has fewer.
+      const int row = i / columns, in_row = row == rows - 1 ? count - row * columns : columns;
+      cell.where = cell.clip = QRectF(static_cast<double>(i % columns) / in_row,
+                                      static_cast<double>(row) / rows, 1.0 / in_row, 1.0 / rows);
+      cell.scene.camera_shift = followed(one);
+      add_motion(cell.scene, *one.motion, seconds, looks, *theme_, one.character);
+      captions.push_back({cell.clip, caption_of(one), color_of(static_cast<std::size_t>(i)), false});
+      cells.push_back(std::move(cell));
+    }
+  }
+  if (cells.empty()) cells.emplace_back();
+  stage_->set_wipe(wipe);
+  stage_->show_cells(std::move(cells), std::move(captions), playback_.is_playing());
   update_words();
 }
 
 void Viewer::update_words() {
-  words_->setText(shown_.empty() ? tr("Add a Load or a Gait to see a motion here") : QString());
+  const bool any =
+      std::any_of(shown_.begin(), shown_.end(), [](const Shown& one) { return one.motion != nullptr; });
+  QString words;
+  if (session_.document().nodes.empty()) {
+    words = tr("Motions are shown here. Add a Load or a Gait to the graph.");
+  } else if (shown_.empty()) {
+    words = tr("Nothing at this node moves. Choose a node that makes a motion.");
+  } else if (!any) {
+    const std::string& node = shown_.front().target.node;
+    const NodeStatus* status = evaluation_.status(node);
+    const QString name = QString::fromStdString(node);
+    using State = NodeStatus::State;
+    if (status && (status->state == State::failed || status->state == State::missing)) {
+      words = tr("%1 failed.").arg(name);
+      for (const Diagnostic& problem : status->diagnostics)
+        if (problem.severity == Severity::error) {
+          words += "\n" + QString::fromStdString(problem.message);
+          break;
+        }
+    } else if (status && status->state == State::blocked) {
+      words = tr("%1 waits for something before it that failed or is not linked.").arg(name);
+    } else {
+      words = tr("Evaluating %1 …").arg(name);
+    }
+  }
+  words_->setText(words);
+  words_->setVisible(!words.isEmpty());
+}
+
+void Viewer::update_controls() {
+  arrange_->setCurrentIndex(static_cast<int>(arrangement_));
+  for (int place = 1; place <= places; ++place) {
+    QAction* action = place_actions_[static_cast<std::size_t>(place - 1)];
+    const QSignalBlocker quiet(action);
+    action->setChecked(!pinned(place).empty());
+    if (QWidget* button = action->associatedObjects().isEmpty()
+                              ? nullptr
+                              : qobject_cast<QWidget*>(action->associatedObjects().first()))
+      button->update();
+  }
+  const auto show = [](QAction* action, bool on) {
+    const QSignalBlocker quiet(action);
+    action->setChecked(on);
+  };
+  show(trails_, looks_.trails);
+  show(contacts_, looks_.contacts);
+  show(stretch_, looks_.stretch);
+  show(follow_, looks_.follow);
+  for (QAction* action : ghosts_) action->setChecked(action->data().toInt() == looks_.ghosts);
 }
 
 }  // namespace kinegraph

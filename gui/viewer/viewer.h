@@ -17,6 +17,7 @@
 class QAction;
 class QComboBox;
 class QLabel;
+class QToolBar;
 class QToolButton;
 
 namespace kinegraph {
@@ -30,7 +31,7 @@ class Viewer : public QWidget {
   static constexpr int places = 9;
   enum class Arrangement { side_by_side, overlaid, wipe };
   struct Looks {
-    bool trails = false, contacts = true, stretch = true, follow = true, names = false;
+    bool trails = false, contacts = true, stretch = true, follow = true;
     int ghosts = 0;  // a ghost every so many frames, 0 = none
   };
   // What is on the stage: `motion` is null while it is evaluated or made ready.
@@ -39,6 +40,8 @@ class Viewer : public QWidget {
     Target target;
     ValuePtr value;
     std::shared_ptr<const ShownMotion> motion;
+    Target skin;  // the node's character, node "" where it makes none
+    ValuePtr character;
   };
 
   Viewer(Session& session, Evaluation& evaluation, Playback& playback, QWidget* parent = nullptr);
@@ -62,6 +65,7 @@ class Viewer : public QWidget {
   void frame_all();
   // The picture of the stage as it is now, drawn at once. For tests and screenshots.
   QImage picture();
+  int pictures_drawn() const;  // since the start: for measuring
   bool uses_opengl() const;
 
  signals:
@@ -77,6 +81,14 @@ class Viewer : public QWidget {
   void take_values();
   void update_scene();
   void update_words();
+  void update_controls();
+  void set_ghosts(int frames);
+  void build_places(QToolBar& bar);
+  void build_show_menu();
+  void toggle_pin(int place);
+  void set_follow(bool follow);
+  QColor color_of(std::size_t index) const;
+  QString caption_of(const Shown& one) const;
 
   Session& session_;
   Evaluation& evaluation_;
@@ -93,10 +105,12 @@ class Viewer : public QWidget {
 
   Stage* stage_ = nullptr;
   QLabel* words_ = nullptr;
-  std::vector<QToolButton*> place_buttons_;
   QComboBox* arrange_ = nullptr;
-  QToolButton *trails_ = nullptr, *ghosts_ = nullptr, *contacts_ = nullptr, *stretch_ = nullptr,
-              *follow_ = nullptr, *frame_ = nullptr;
+  QToolButton* show_ = nullptr;
+  std::vector<QAction*> ghosts_;  // each holds its number of frames
+  std::array<QAction*, places> place_actions_{};
+  QAction *trails_ = nullptr, *contacts_ = nullptr, *stretch_ = nullptr, *follow_ = nullptr,
+          *frame_ = nullptr;
 };
 
 }  // namespace kinegraph

@@ -1,0 +1,70 @@
+#include "gui/viewer/orbit_camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinegraph {
+namespace {
+constexpr float degrees = 57.29577951f;
+constexpr float field_of_view = 35;  // degrees, of the shorter side
+}  // namespace
+
+QVector3D OrbitCamera::eye() const {
+  const QVector3D away(std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw));
+  return target + distance * away;
+}
+
+QMatrix4x4 OrbitCamera::view() const {
+  QMatrix4x4 m;
+  m.lookAt(eye(), target, QVector3D(0, 1, 0));
+  return m;
+}
+
+QMatrix4x4 OrbitCamera::projection(QSizeF size) const {
+  const float aspect = static_cast<float>(std::max(1.0, size.width()) / std::max(1.0, size.height()));
+  float vertical = field_of_view;
+  if (aspect < 1) vertical = 2 * degrees * std::atan(std::tan(field_of_view / degrees / 2) / aspect);
+  QMatrix4x4 m;
+  m.perspective(vertical, aspect, std::max(0.01f, distance * 0.02f), distance * 20 + 60);
+  return m;
+}
+
+QVector3D OrbitCamera::right() const {
+  return QVector3D(std::cos(yaw), 0, -std::sin(yaw));
+}
+
+QVector3D OrbitCamera::up() const {
+  return QVector3D::crossProduct((eye() - target).normalized(), right());
+}
+
+void OrbitCamera::orbit(QPointF pixels) {
+  yaw -= static_cast<float>(pixels.x()) * 0.008f;
+  pitch = std::clamp(pitch + static_cast<float>(pixels.y()) * 0.008f, -1.5f, 1.5f);
+}
+
+void OrbitCamera::pan(QPointF pixels, double height) {
+  const float metres =
+      2 * distance * std::tan(field_of_view / degrees / 2) / static_cast<float>(std::max(1.0, height));
+  target += metres * (static_cast<float>(-pixels.x()) * right() + static_cast<float>(pixels.y()) * up());
+}
+
+void OrbitCamera::zoom(double steps) {
+  distance = std::clamp(distance * static_cast<float>(std::pow(0.88, steps)), 0.05f, 400.0f);
+}
+
+void OrbitCamera::frame(QVector3D low, QVector3D high, QSizeF size) {
+  target = (low + high) / 2;
+  const float radius = std::max(0.05f, (high - low).length() / 2);
+  // The field of view is that of the shorter side; a standing body fills a wide picture's height.
+  Q_UNUSED(size)
+  distance = radius / std::sin(field_of_view / degrees / 2) * 1.02f;
+}
+
+std::optional<QPointF> OrbitCamera::on_picture(QVector3D point, QSizeF size) const {
+  const QVector4D clip = projection(size) * view() * QVector4D(point, 1);
+  if (clip.w() <= 1e-4f) return {};
+  return QPointF((clip.x() / clip.w() * 0.5 + 0.5) * size.width(),
+                 (0.5 - clip.y() / clip.w() * 0.5) * size.height());
+}
+
+}  // namespace kinegraph
