@@ -3,12 +3,15 @@
 // Home and End, I and O set the range, L loops.
 #pragma once
 #include <QWidget>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "graph/evaluate/run_log.h"
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
 #include "gui/timeline/playback.h"
+#include "gui/timeline/transport_icon.h"
 #include "gui/viewer/viewer.h"
 #include "gui/window/theme.h"
 
@@ -37,9 +40,14 @@ class Timeline : public QWidget {
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
+  void build();
+  void set_in();
+  void set_out();
+  void change_speed(int steps);
   void find_wanted();
+  std::optional<Target> nearest_warp(const Document& document, const Registry& registry,
+                                     const std::string& node) const;
   void take_values();
-  void update_clip();
   void update_state();
   void update_moment();
 
@@ -47,7 +55,10 @@ class Timeline : public QWidget {
   Evaluation& evaluation_;
   Playback& playback_;
   Viewer& viewer_;
+  const Theme* theme_;
   std::vector<Target> wanted_;
+  Target warp_, source_, reference_;  // node "" = none
+  std::vector<std::pair<QToolButton*, TransportIcon>> buttons_;
   TimelineTracks* tracks_ = nullptr;
   QToolButton *play_ = nullptr, *loop_ = nullptr;
   QComboBox* speed_ = nullptr;

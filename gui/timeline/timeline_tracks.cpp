@@ -1,0 +1,287 @@
+#include "gui/timeline/timeline_tracks.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPainterPath>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+namespace kinegraph {
+namespace {
+
+constexpr double ruler = 24, gutter = 96, right_edge = 14, gap = 6;
+constexpr double handle = 6;  // pixels around an end of the range that take hold of it
+
+double nice_step(double least) {
+  const double power = std::pow(10.0, std::floor(std::log10(std::max(1.0, least))));
+  for (double factor : {1.0, 2.0, 5.0, 10.0})
+    if (power * factor >= least) return power * factor;
+  return power * 10;
+}
+
+}  // namespace
+
+TimelineTracks::TimelineTracks(Playback& playback, QWidget* parent)
+    : QWidget(parent), playback_(playback), theme_(&dark_theme()) {
+  setMouseTracking(true);
+  setAccessibleName(tr("Frames of the clip"));
+  connect(&playback_, &Playback::moved, this, qOverload<>(&QWidget::update));
+  connect(&playback_, &Playback::state_changed, this, qOverload<>(&QWidget::update));
+  connect(&playback_, &Playback::clip_changed, this, [this] {
+    first_ = shown_ = 0;
+    update();
+  });
+}
+
+void TimelineTracks::set_rows(std::vector<Row> rows) {
+  rows_ = std::move(rows);
+  update();
+}
+
+void TimelineTracks::set_warp(std::shared_ptr<const Warp> warp) {
+  warp_ = std::move(warp);
+  update();
+}
+
+void TimelineTracks::set_theme(const Theme& theme) {
+  theme_ = &theme;
+  update();
+}
+
+int TimelineTracks::last_frame() const {
+  int last = playback_.frames();
+  // All lengths in frames of the clip's rate.
+  for (const Row& row : rows_)
+    if (row.motion)
+      last =
+          std::max(last, static_cast<int>(std::ceil(row.motion->frames * playback_.fps() / row.motion->fps)));
+  return std::max(last, 1);
+}
+
+double TimelineTracks::x_of(double frame) const {
+  const double width_of_view = shown_ > 0 ? shown_ : last_frame();
+  return gutter + (frame - first_) / width_of_view * std::max(10.0, width() - gutter - right_edge);
+}
+
+double TimelineTracks::frame_at(double x) const {
+  const double width_of_view = shown_ > 0 ? shown_ : last_frame();
+  return first_ + (x - gutter) / std::max(10.0, width() - gutter - right_edge) * width_of_view;
+}
+
+QRectF TimelineTracks::row_rect(std::size_t index) const {
+  const bool warped = warp_ && rows_.size() >= 2;
+  const double between = warped ? std::clamp((height() - ruler) * 0.34, 26.0, 90.0) : gap;
+  const double count = static_cast<double>(std::max<std::size_t>(1, rows_.size()));
+  const double free = height() - ruler - 2 * gap - (warped ? between + (count - 2) * gap : (count - 1) * gap);
+  const double high = std::clamp(free / count, 8.0, 40.0);
+  double top = ruler + gap;
+  for (std::size_t i = 0; i < index; ++i) top += high + (warped && i == 0 ? between : gap);
+  return QRectF(0, top, width(), high);
+}
+
+void TimelineTracks::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), theme_->panel);
+  painter.setRenderHint(QPainter::Antialiasing);
+  paint_ruler(painter);
+  painter.save();
+  for (std::size_t i = 0; i < rows_.size(); ++i) paint_row(painter, rows_[i], row_rect(i));
+  if (warp_ && rows_.size() >= 2) paint_warp(painter, row_rect(0), row_rect(1));
+  painter.restore();
+  if (rows_.empty()) {
+    painter.setPen(theme_->faint_text);
+    painter.drawText(rect().adjusted(0, static_cast<int>(ruler), 0, 0), Qt::AlignCenter,
+                     tr("No motion is shown, so there is nothing to play."));
+    return;
+  }
+  // What lies outside the range is dimmed.
+  if (playback_.has_range()) {
+    QColor dim = theme_->window;
+    dim.setAlpha(150);
+    const double in = x_of(playback_.in()), out = x_of(playback_.out());
+    painter.fillRect(QRectF(gutter, ruler, std::max(0.0, in - gutter), height()), dim);
+    painter.fillRect(QRectF(out, ruler, std::max(0.0, width() - out), height()), dim);
+    painter.setPen(QPen(theme_->good, 2));
+    painter.drawLine(QPointF(in, 4), QPointF(in, height()));
+    painter.drawLine(QPointF(out, 4), QPointF(out, height()));
+  }
+  const double at = x_of(playback_.time() * playback_.fps());
+  if (at >= gutter - 1 && at <= width()) {
+    painter.setPen(QPen(theme_->accent, 1.5));
+    painter.drawLine(QPointF(at, ruler - 4), QPointF(at, height()));
+    const QString number = QString::number(playback_.frame());
+    const double wide = painter.fontMetrics().horizontalAdvance(number) + 10;
+    const double left = std::clamp(at - wide / 2, gutter - 10, width() - wide - 1.0);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(theme_->accent);
+    painter.drawRoundedRect(QRectF(left, 3, wide, ruler - 7), 3, 3);
+    painter.setPen(theme_->dark ? theme_->window : Qt::white);
+    painter.drawText(QRectF(left, 3, wide, ruler - 7), Qt::AlignCenter, number);
+  }
+  if (hasFocus()) {
+    painter.setPen(QPen(theme_->accent, 1));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(QRectF(0.5, 0.5, width() - 1, height() - 1));
+  }
+}
+
+void TimelineTracks::paint_ruler(QPainter& painter) {
+  painter.fillRect(QRectF(0, 0, width(), ruler), theme_->window);
+  painter.setPen(theme_->line);
+  painter.drawLine(QPointF(0, ruler), QPointF(width(), ruler));
+  if (rows_.empty()) return;
+  const double frames_a_pixel = frame_at(gutter + 1) - frame_at(gutter);
+  const double step = nice_step(70 * frames_a_pixel);
+  painter.setPen(theme_->faint_text);
+  painter.drawText(QRectF(10, 0, gutter - 16, ruler), Qt::AlignVCenter | Qt::AlignLeft, tr("Frame"));
+  const double end = frame_at(width());
+  for (double frame = std::max(0.0, std::ceil(first_ / step) * step); frame <= end; frame += step) {
+    const double x = x_of(frame);
+    painter.setPen(theme_->line);
+    painter.drawLine(QPointF(x, ruler - 6), QPointF(x, height()));
+    painter.setPen(theme_->faint_text);
+    painter.drawText(QRectF(x - 40, 2, 80, ruler - 8), Qt::AlignCenter,
+                     QString::number(static_cast<int>(frame)));
+  }
+}
+
+void TimelineTracks::paint_row(QPainter& painter, const Row& row, const QRectF& where) {
+  painter.setPen(theme_->text);
+  const QString name =
+      painter.fontMetrics().elidedText(row.name, Qt::ElideRight, static_cast<int>(gutter) - 30);
+  painter.drawText(QRectF(22, where.top(), gutter - 26, where.height()), Qt::AlignVCenter | Qt::AlignLeft,
+                   name);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(row.color);
+  painter.drawEllipse(QPointF(13, where.center().y()), 4, 4);
+  if (!row.motion) return;
+  const ShownMotion& motion = *row.motion;
+  const double scale = playback_.fps() / motion.fps;
+  const QRectF body(x_of(0), where.top(), x_of(motion.frames * scale) - x_of(0), where.height());
+  painter.setClipRect(QRectF(gutter - 2, 0, width(), height()));
+  QColor back = theme_->raised;
+  painter.setBrush(back);
+  painter.setPen(QPen(theme_->line, 1));
+  painter.drawRoundedRect(body, 3, 3);
+  const std::size_t lanes = motion.contacts.points.size();
+  const double pad = 3, lane = lanes > 0 ? (where.height() - 2 * pad) / static_cast<double>(lanes) : 0;
+  painter.setPen(Qt::NoPen);
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const FootPoint& point = motion.contacts.points[i];
+    QColor color = point.left ? theme_->left : theme_->right;
+    if (point.part == "ball") color = theme_->dark ? color.lighter(122) : color.darker(118);
+    painter.setBrush(color);
+    for (const Run& run : runs_of(point.planted)) {
+      const double from = x_of(static_cast<double>(run.start) * scale),
+                   to = x_of(static_cast<double>(run.end) * scale);
+      painter.drawRect(QRectF(from, where.top() + pad + static_cast<double>(i) * lane,
+                              std::max(1.0, to - from), std::max(1.0, lane - 1)));
+    }
+  }
+  painter.setClipping(false);
+}
+
+void TimelineTracks::paint_warp(QPainter& painter, const QRectF& upper, const QRectF& lower) {
+  if (warp_->paths.empty() || warp_->paths.front().empty()) return;
+  const std::vector<std::uint32_t>& path = warp_->paths.front();
+  painter.setClipRect(QRectF(gutter - 2, upper.bottom(), width(), lower.top() - upper.bottom()));
+  const double scale = playback_.fps() / warp_->fps;
+  const double pixels = (x_of(1) - x_of(0)) * scale;
+  const std::size_t step =
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(7 / std::max(0.01, pixels))));
+  QColor plain = theme_->port("Warp");
+  for (std::size_t row = 0; row < path.size(); row += step) {
+    const double source = warp_->source_warped ? path[row] : static_cast<double>(row);
+    const double reference = warp_->source_warped ? static_cast<double>(row) : path[row];
+    const double above = x_of(source * scale), below = x_of(reference * scale);
+    // Steep lines are where time runs alike; the others stand out.
+    const double slant = std::min(1.0, std::abs(above - below) / 120);
+    plain.setAlphaF(static_cast<float>(0.45 + 0.5 * slant));
+    painter.setPen(QPen(plain, 1));
+    painter.drawLine(QPointF(above, upper.bottom() + 1), QPointF(below, lower.top() - 1));
+  }
+  const int now = playback_.frame();
+  if (static_cast<std::size_t>(now) < path.size()) {
+    const double source = warp_->source_warped ? path[static_cast<std::size_t>(now)] : now;
+    const double reference = warp_->source_warped ? now : path[static_cast<std::size_t>(now)];
+    painter.setPen(QPen(theme_->accent, 2));
+    painter.drawLine(QPointF(x_of(source * scale), upper.bottom()),
+                     QPointF(x_of(reference * scale), lower.top()));
+  }
+  painter.setClipping(false);
+}
+
+void TimelineTracks::mousePressEvent(QMouseEvent* event) {
+  setFocus(Qt::MouseFocusReason);
+  const double x = event->position().x();
+  if (event->button() == Qt::MiddleButton) {
+    drag_ = Drag::pan;
+    dragged_from_ = frame_at(x);
+  } else if (event->button() == Qt::LeftButton) {
+    if (playback_.has_range() && std::abs(x - x_of(playback_.in())) < handle)
+      drag_ = Drag::in;
+    else if (playback_.has_range() && std::abs(x - x_of(playback_.out())) < handle)
+      drag_ = Drag::out;
+    else
+      drag_ = Drag::scrub;
+    mouseMoveEvent(event);
+  }
+}
+
+void TimelineTracks::mouseMoveEvent(QMouseEvent* event) {
+  const double x = event->position().x();
+  const int frame = static_cast<int>(std::lround(frame_at(x)));
+  switch (drag_) {
+    case Drag::scrub:
+      playback_.pause();
+      playback_.set_frame(static_cast<int>(std::floor(frame_at(x))));
+      break;
+    case Drag::in:
+      playback_.set_range(std::min(frame, playback_.out() - 1), playback_.out());
+      break;
+    case Drag::out:
+      playback_.set_range(playback_.in(), std::max(frame, playback_.in() + 1));
+      break;
+    case Drag::pan:
+      first_ += dragged_from_ - frame_at(x);
+      keep_view_inside();
+      break;
+    case Drag::none: {
+      const bool end = playback_.has_range() && (std::abs(x - x_of(playback_.in())) < handle ||
+                                                 std::abs(x - x_of(playback_.out())) < handle);
+      setCursor(end ? Qt::SizeHorCursor : Qt::ArrowCursor);
+      break;
+    }
+  }
+}
+
+void TimelineTracks::mouseReleaseEvent(QMouseEvent*) {
+  drag_ = Drag::none;
+}
+
+void TimelineTracks::mouseDoubleClickEvent(QMouseEvent*) {
+  first_ = shown_ = 0;
+  update();
+}
+
+void TimelineTracks::wheelEvent(QWheelEvent* event) {
+  const double under = frame_at(event->position().x());
+  const double all = last_frame(), before = shown_ > 0 ? shown_ : all;
+  shown_ = std::clamp(before * std::pow(0.85, event->angleDelta().y() / 120.0), std::min(10.0, all), all);
+  first_ = under - (under - first_) * shown_ / before;
+  keep_view_inside();
+  event->accept();
+}
+
+void TimelineTracks::keep_view_inside() {
+  const double all = last_frame();
+  if (shown_ <= 0 || shown_ >= all) {
+    first_ = shown_ = 0;
+  } else {
+    first_ = std::clamp(first_, 0.0, all - shown_);
+  }
+  update();
+}
+
+}  // namespace kinegraph

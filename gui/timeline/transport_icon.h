@@ -1,0 +1,11 @@
+// The signs on the buttons that move through time, drawn so that they fit any theme and size.
+#pragma once
+#include <QColor>
+#include <QIcon>
+
+namespace kinegraph {
+
+enum class TransportIcon { start, back, play, pause, forward, end, loop, in, out };
+QIcon transport_icon(TransportIcon icon, const QColor& color, double pixel_ratio);
+
+}  // namespace kinegraph
