@@ -38,6 +38,7 @@ NodeType mirror_node();
 NodeType resample_node();
 NodeType trim_node();
 NodeType exaggerate_node();
+NodeType rubber_joints_node();
 
 Registry all_nodes() {
   Registry registry;
@@ -77,6 +78,7 @@ Registry all_nodes() {
   registry.add(load_node());
   registry.add(export_node());
   registry.add(exaggerate_node());
+  registry.add(rubber_joints_node());
   registry.add(switch_node());
   registry.add(dot_node());
   registry.add(blend_node());

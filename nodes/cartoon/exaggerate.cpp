@@ -218,7 +218,7 @@ ExaggerateResult exaggerate(const Motion& motion, const ExaggerateParams& params
   }
   work.progress(0.8);
   result.stretch = link_stretch(skeleton, lengths, moved);
-  aim_links(skeleton, links_below(motion), world, moved, work);
+  aim_links(skeleton, links_below(motion), world, most_twist_at(motion.fps()), moved, work);
   result.motion = motion_from_world(motion.shared_skeleton(), motion.shared_source(), motion.fps(),
                                     motion.translating(), moved, work);
   tell(motion, params, result, corrected, work);

@@ -5,12 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "nodes/motion/elementary.h"
+
 namespace kinegraph {
 namespace {
 
 constexpr double hold_to_identity = 0.005;  // of the links' squared length, about each axis
 constexpr double zero_link = 1e-6;          // of the height
-constexpr std::size_t frames_between_checks = 512;
+// 5° a frame at 120 frames a second.
+constexpr double most_twist_a_second = 5 * 120 / degrees_per_radian;
 
 using Matrix4 = std::array<std::array<double, 4>, 4>;
 
@@ -84,38 +87,107 @@ std::vector<std::vector<int>> links_below(const Motion& motion) {
   return ends;
 }
 
+void limit_turns(ConstQuatTrack old, double most_turn, QuatTrack out) {
+  const std::size_t frames = out.w.size();
+  // Of unit quaternions half an angle apart |a·b| is its cosine.
+  const double least_cosine = cosine(0.5 * most_turn);
+  std::vector<Quat> turned(frames);
+  bool jumps = false;
+  for (std::size_t t = 0; t < frames; ++t) {
+    turned[t] = inverse(old[t]) * out[t];
+    jumps = jumps || (t > 0 && std::fabs(dot(turned[t], turned[t - 1])) < least_cosine);
+  }
+  if (jumps) {
+    const auto follow = [&](Quat from, Quat to) {
+      const double angle = turn(from, to);
+      return angle > most_turn ? slerp(most_turn / angle, from, to) : to;
+    };
+    std::vector<Quat> forward = turned, backward = turned;
+    for (std::size_t t = 1; t < frames; ++t) forward[t] = follow(forward[t - 1], turned[t]);
+    for (std::size_t t = frames - 1; t-- > 0;) backward[t] = follow(backward[t + 1], turned[t]);
+    for (std::size_t t = 0; t < frames; ++t)
+      out.set(t, normalized(old[t] * slerp(0.5, forward[t], backward[t])));
+  }
+  make_continuous(out.x, out.y, out.z, out.w);
+}
+
+double most_twist_at(double fps) {
+  return most_twist_a_second / fps;
+}
+
+void aim_link(ConstVec3Track old_from, ConstVec3Track old_to, ConstVec3Track from, ConstVec3Track to,
+              ConstQuatTrack old, double most_twist, QuatTrack out) {
+  const std::size_t frames = out.w.size();
+  for (std::size_t t = 0; t < frames; ++t)
+    out.set(t, normalized(smallest_turn(old_to[t] - old_from[t], to[t] - from[t]) * old[t]));
+  make_continuous(out.x, out.y, out.z, out.w);
+  // The twist of both from frame to frame, as half-angle cosine and sine, about the link in the joint's
+  // frame.
+  const double tangent = sine(0.5 * most_twist) / cosine(0.5 * most_twist);
+  const auto axis = [&](std::size_t t) {
+    return normalized(rotate(inverse(old[t]), old_to[t] - old_from[t]));
+  };
+  const auto excess = [&](std::size_t t, double& s, double& c) {
+    const Vec3 a = axis(t);
+    const Quat step = inverse(out[t - 1]) * out[t], input = inverse(old[t - 1]) * old[t];
+    const double s1 = dot(a, Vec3{step.x, step.y, step.z}), s2 = dot(a, Vec3{input.x, input.y, input.z});
+    s = s1 * input.w - step.w * s2;
+    c = step.w * input.w + s1 * s2;
+    if (c < 0) {
+      c = -c;
+      s = -s;
+    }
+  };
+  bool spins = false;
+  double s, c;
+  for (std::size_t t = 1; t < frames && !spins; ++t) {
+    excess(t, s, c);
+    spins = std::fabs(s) > tangent * c;
+  }
+  if (!spins) return;
+  std::vector<double> twist(frames), low(frames), high(frames);
+  for (std::size_t t = 1; t < frames; ++t) {
+    excess(t, s, c);
+    twist[t] = twist[t - 1] + 2 * arc_tangent2(s, c);
+  }
+  low = high = twist;
+  for (std::size_t t = 1; t < frames; ++t) {
+    low[t] = std::max(low[t], low[t - 1] - most_twist);
+    high[t] = std::min(high[t], high[t - 1] + most_twist);
+  }
+  for (std::size_t t = frames - 1; t-- > 0;) {
+    low[t] = std::max(low[t], low[t + 1] - most_twist);
+    high[t] = std::min(high[t], high[t + 1] + most_twist);
+  }
+  for (std::size_t t = 0; t < frames; ++t)
+    out.set(t, normalized(out[t] * axis_angle(axis(t), 0.5 * (low[t] + high[t]) - twist[t])));
+  make_continuous(out.x, out.y, out.z, out.w);
+}
+
 void aim_links(const Skeleton& skeleton, const std::vector<std::vector<int>>& ends, const WorldMotion& from,
-               WorldMotion& to, Work& work) {
+               double most_twist, WorldMotion& to, Work& work) {
   for (int j = 0; j < skeleton.size(); ++j) {
+    work.check();
     const auto& below = ends[j];
     const int parent = skeleton.joints[j].parent;
-    const auto was = from.position(j), is = std::as_const(to).position(j);
-    const auto old = from.orientation(j);
+    const auto is = [&](int joint) { return std::as_const(to).position(joint); };
     const auto turned = to.orientation(j);
-    const std::size_t frames = to.frames();
-    for (std::size_t start = 0; start < frames; start += frames_between_checks) {
-      const std::size_t end = std::min(frames, start + frames_between_checks);
-      work.check();
-      if (below.size() == 1) {
-        const auto far_was = from.position(below[0]), far_is = std::as_const(to).position(below[0]);
-        for (std::size_t t = start; t < end; ++t)
-          turned.set(t, normalized(smallest_turn(far_was[t] - was[t], far_is[t] - is[t]) * old[t]));
-      } else if (below.empty() && parent >= 0) {
-        const auto near_was = from.position(parent), near_is = std::as_const(to).position(parent);
-        for (std::size_t t = start; t < end; ++t)
-          turned.set(t, normalized(smallest_turn(was[t] - near_was[t], is[t] - near_is[t]) * old[t]));
-      } else {
-        std::vector<Vec3> a(below.size()), b(below.size());
-        for (std::size_t t = start; t < end; ++t) {
-          for (std::size_t i = 0; i < below.size(); ++i) {
-            a[i] = from.position(below[i])[t] - was[t];
-            b[i] = std::as_const(to).position(below[i])[t] - is[t];
-          }
-          turned.set(t, normalized(best_turn(a, b) * old[t]));
+    const auto old = from.orientation(j);
+    if (below.size() == 1) {
+      aim_link(from.position(j), from.position(below[0]), is(j), is(below[0]), old, most_twist, turned);
+    } else if (below.empty() && parent >= 0) {
+      aim_link(from.position(parent), from.position(j), is(parent), is(j), old, most_twist, turned);
+    } else {
+      std::vector<Vec3> a(below.size()), b(below.size());
+      for (std::size_t t = 0; t < to.frames(); ++t) {
+        for (std::size_t i = 0; i < below.size(); ++i) {
+          a[i] = from.position(below[i])[t] - from.position(j)[t];
+          b[i] = is(below[i])[t] - is(j)[t];
         }
+        turned.set(t, normalized(best_turn(a, b) * old[t]));
       }
+      limit_turns(old, most_twist, turned);
     }
-    make_continuous(turned.x, turned.y, turned.z, turned.w);
   }
 }
 

@@ -1,0 +1,34 @@
+// Rubber limbs by a sub-joint hierarchy [Kwon §5].
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "graph/work.h"
+#include "nodes/cartoon/mass_spring.h"
+#include "nodes/cartoon/sub_joints.h"
+#include "nodes/motion/contacts.h"
+#include "nodes/motion/motion.h"
+
+namespace kinegraph {
+
+struct RubberParams {
+  SubJointParams sub_joints;
+  bool simulate = true;
+  MassSpringParams springs;
+  double blend = 0.7;  // result = (1 − blend) s + blend x
+};
+
+struct RubberResult {
+  Motion motion;  // on the sub-joint skeleton, whose rest pose is the input's put through the same curves
+  SubJoints sub_joints;
+};
+
+// Sub-joints of groups lie on the curve through the group's joints, the others on their straight links; then
+// they swing on springs. World orientation of J′_{k,1}: the smallest turn of the input's that aims joint k's
+// old link at its first new one; of J′_{k,l}: the Slerp by (l − 1)/m_k from it to the child's. `contacts`,
+// where given: a planted point doesn't swing, and the less, the nearer to it, do the sub-joints of its limb,
+// so that feet stand still. Sub-joints are named NAME_2, NAME_3, … after their joint.
+RubberResult rubber_joints(const Motion& motion, const RubberParams& params, const Contacts* contacts,
+                           Work& work);
+
+}  // namespace kinegraph

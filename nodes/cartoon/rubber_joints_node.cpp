@@ -1,0 +1,98 @@
+#include "graph/compute.h"
+#include "graph/node_type.h"
+#include "nodes/cartoon/rubber_joints.h"
+#include "nodes/feet/detect_contacts.h"
+#include "nodes/motion/joint_pattern.h"
+
+namespace kinegraph {
+namespace {
+
+// 17 rad/s, 2.8 Hz: a hand that stops swings on once visibly and is still after half a second. With this drag
+// slow moves trail by drag/hook = 40 ms.
+constexpr double default_hook = 300, default_link = 600, default_drag = 12;
+
+RubberParams settings_of(const Params& params) {
+  RubberParams settings;
+  for (const auto& [pattern, count] : params.json("sub_joints").object())
+    settings.sub_joints.counts.emplace_back(pattern, static_cast<int>(count.number()));
+  for (const Json& chain : params.json("groups").array())
+    settings.sub_joints.groups.emplace_back(chain.find("from")->string(), chain.find("to")->string());
+  settings.sub_joints.prune = params.text("prune");
+  settings.simulate = params.boolean("simulate");
+  settings.springs.hook = params.number("hook");
+  settings.springs.link = params.number("link");
+  settings.springs.drag = params.number("drag");
+  settings.springs.drag_in_root = params.text("drag_in") == "root";
+  settings.springs.substeps = static_cast<int>(params.integer("substeps"));
+  settings.blend = params.number("blend");
+  return settings;
+}
+
+// Where no contacts are linked the feet's own; a skeleton without feet has none.
+std::optional<Contacts> found_contacts(const Motion& motion, Work& work) {
+  try {
+    return detect_contacts(motion, {}, work);
+  } catch (const Failure& failure) {
+    if (failure.diagnostic().code != "no-feet") throw;
+    return {};
+  }
+}
+
+}  // namespace
+
+NodeType rubber_joints_node() {
+  NodeType type;
+  type.name = "RubberJoints";
+  type.category = "cartoon";
+  type.help =
+      "Turns limbs into rubber: cuts links into sub-joints, bends them along curves and lets them follow "
+      "through on "
+      "springs.";
+  type.source = "Kwon & Lee, Exaggerating Character Motions Using Sub-Joint Hierarchy, §5";
+  type.keywords = {"cartoon", "rubber", "hose", "follow", "overlap", "spring", "jiggle", "Kwon"};
+  type.input("motion", {"Motion"}, "the motion whose limbs become rubber");
+  type.optional_input("contacts", {"Contacts"},
+                      "planted points, which don't swing; open: found as DetectContacts does");
+  type.output("motion", "Motion", "the motion on the sub-joint skeleton", "motion");
+  type.param("sub_joints", table(integer(1).between(1, 100)),
+             "joint pattern to number of sub-joints of its link; by length where nothing is said");
+  type.param("groups",
+             list(object({required(text("")).as("from", "the chain's joint nearest to the root"),
+                          required(text("")).as("to", "its last joint")})),
+             "chains that bend as one curve; empty: every limb below its last branching");
+  type.param("prune", pattern("").checked_by(check_pattern),
+             "joints that don't count as branches; empty: fingers, thumbs and toe ends by their names");
+  type.param("simulate", boolean(true), "let sub-joints follow through on springs");
+  type.param("hook", number(default_hook).between(0, 1e6).in("s⁻²").slider(50, 2000),
+             "stiffness of the spring from each sub-joint to its place");
+  type.param("link", number(default_link).between(0, 1e6).in("s⁻²").slider(0, 5000),
+             "stiffness of the springs between neighbours");
+  type.param("drag", number(default_drag).between(0, 1e4).in("s⁻¹").slider(0, 60),
+             "how fast swinging dies away; slow moves trail by drag / hook seconds");
+  type.param("drag_in",
+             choice({{"root", "against the root's own motion, so that steady travel doesn't trail"},
+                     {"world", "against the world, as printed"}}),
+             "what the drag holds still against");
+  type.param("blend", number(0.7).between(0, 1).slider(0, 1), "0 is the curve exactly, 1 all springs");
+  type.param("substeps", integer(0).between(0, 1000),
+             "steps of the simulation a frame, at least; 0 = by frame rate and stiffness");
+  type.compute = [](Compute& compute) {
+    const auto motion = compute.shared_input<Motion>("motion");
+    Work& work = compute.work();
+    const RubberParams settings = settings_of(compute.params());
+    const Contacts* contacts = compute.optional_input<Contacts>("contacts");
+    std::optional<Contacts> found;
+    if (!contacts && settings.simulate && settings.blend > 0 && motion->frames() > 1) {
+      found = found_contacts(*motion, work);
+      if (found) contacts = &*found;
+    }
+    if (contacts && contacts->frames != motion->frames())
+      throw Failure(error("frames-differ", "the contacts have another number of frames than the motion")
+                        .at_port("contacts")
+                        .hinting("find them in this motion, or in one of the same length"));
+    compute.output("motion", rubber_joints(*motion, settings, contacts, work).motion);
+  };
+  return type;
+}
+
+}  // namespace kinegraph

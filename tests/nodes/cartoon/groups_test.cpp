@@ -1,0 +1,112 @@
+#include "nodes/cartoon/groups.h"
+
+#include <gmock/gmock.h>
+
+#include "graph/diagnostic.h"
+#include "nodes/gait/gait_skeleton.h"
+#include "tests/nodes/cartoon/cartoon_clips.h"
+
+namespace kinegraph {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<std::string> groups_as_text(const Skeleton& skeleton) {
+  std::vector<std::string> all;
+  for (const auto& group : automatic_groups(skeleton, small_ends(skeleton))) {
+    std::string text;
+    for (int j : group) text += (text.empty() ? "" : " ") + skeleton.joints[j].name;
+    all.push_back(text);
+  }
+  return all;
+}
+
+// "a(b(c)d)" in words: each joint with its parent's name.
+Skeleton tree(const std::vector<std::pair<std::string, std::string>>& joints) {
+  Skeleton skeleton;
+  for (const auto& [name, parent] : joints)
+    skeleton.joints.push_back({name, skeleton.find(parent), {0.1, 0, 0}, {}});
+  return skeleton;
+}
+
+TEST(Groups, OfGaitsSkeletonAreLegsArmsAndNeck) {
+  EXPECT_THAT(
+      groups_as_text(*gait_skeleton({})),
+      ElementsAre("LeftUpLeg LeftLeg LeftFoot LeftToeBase", "RightUpLeg RightLeg RightFoot RightToeBase",
+                  "Neck Head", "LeftShoulder LeftArm LeftForeArm LeftHand",
+                  "RightShoulder RightArm RightForeArm RightHand"));
+}
+
+TEST(Groups, OfCmusSkeletonEndWhereFingersPart) {
+  KINEGRAPH_NEEDS_MOCAP();
+  EXPECT_THAT(groups_as_text(cartoon_clip("cmu/bvh/08_01.bvh", 2).skeleton()),
+              ElementsAre("LHipJoint LeftUpLeg LeftLeg LeftFoot LeftToeBase",
+                          "RHipJoint RightUpLeg RightLeg RightFoot RightToeBase", "Neck Neck1 Head",
+                          "LeftShoulder LeftArm LeftForeArm LeftHand",
+                          "RightShoulder RightArm RightForeArm RightHand"));
+  EXPECT_THAT(groups_as_text(cartoon_clip("cmu/asfamc/17_10.amc", 2).skeleton()),
+              ElementsAre("lhipjoint lfemur ltibia lfoot ltoes", "rhipjoint rfemur rtibia rfoot rtoes",
+                          "lowerneck upperneck head", "lclavicle lhumerus lradius lwrist lhand",
+                          "rclavicle rhumerus rradius rwrist rhand"));
+}
+
+TEST(Groups, OfAMixamoLikeSkeletonLeaveOutFingersAndToeEnds) {
+  const Skeleton skeleton = tree({{"mixamorig:Hips", ""},
+                                  {"mixamorig:Spine", "mixamorig:Hips"},
+                                  {"mixamorig:Neck", "mixamorig:Spine"},
+                                  {"mixamorig:Head", "mixamorig:Neck"},
+                                  {"mixamorig:HeadTop_End", "mixamorig:Head"},
+                                  {"mixamorig:LeftArm", "mixamorig:Spine"},
+                                  {"mixamorig:LeftForeArm", "mixamorig:LeftArm"},
+                                  {"mixamorig:LeftHand", "mixamorig:LeftForeArm"},
+                                  {"mixamorig:LeftHandThumb1", "mixamorig:LeftHand"},
+                                  {"mixamorig:LeftHandThumb2", "mixamorig:LeftHandThumb1"},
+                                  {"mixamorig:LeftHandIndex1", "mixamorig:LeftHand"},
+                                  {"mixamorig:LeftHandMiddle1", "mixamorig:LeftHand"},
+                                  {"mixamorig:LeftUpLeg", "mixamorig:Hips"},
+                                  {"mixamorig:LeftLeg", "mixamorig:LeftUpLeg"},
+                                  {"mixamorig:LeftFoot", "mixamorig:LeftLeg"},
+                                  {"mixamorig:LeftToeBase", "mixamorig:LeftFoot"},
+                                  {"mixamorig:LeftToe_End", "mixamorig:LeftToeBase"}});
+  EXPECT_THAT(groups_as_text(skeleton),
+              ElementsAre("mixamorig:Neck mixamorig:Head mixamorig:HeadTop_End",
+                          "mixamorig:LeftArm mixamorig:LeftForeArm mixamorig:LeftHand",
+                          "mixamorig:LeftUpLeg mixamorig:LeftLeg mixamorig:LeftFoot mixamorig:LeftToeBase"));
+}
+
+TEST(Groups, OfASingleChainAreAllOfIt) {
+  EXPECT_THAT(groups_as_text(tree({{"a", ""}, {"b", "a"}, {"c", "b"}})), ElementsAre("a b c"));
+  EXPECT_THAT(groups_as_text(tree({{"alone", ""}})), ElementsAre("alone"));
+}
+
+TEST(Groups, EndBelowTheFirstBranchingJoint) {
+  EXPECT_THAT(groups_as_text(tree({{"a", ""}, {"b", "a"}, {"c", "b"}, {"d", "b"}, {"e", "d"}})),
+              ElementsAre("c", "d e"));  // a has one child, b, which is in no group
+}
+
+TEST(Groups, DoNotTakeMiddlesAndStringsForFingers) {
+  const Skeleton skeleton =
+      tree({{"SpineMiddleBody", ""}, {"Spring", "SpineMiddleBody"}, {"Little", "Spring"}});
+  EXPECT_THAT(small_ends(skeleton), ElementsAre(false, false, true));
+}
+
+TEST(Groups, CanBeNamed) {
+  const Skeleton skeleton = tree({{"a", ""}, {"b", "a"}, {"c", "b"}, {"d", "b"}, {"e", "d"}});
+  const auto groups = named_groups(skeleton, {{"a", "c"}, {"d", "e"}});
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_THAT(groups[0], ElementsAre(0, 1, 2));
+  const auto refusal = [&](const std::vector<std::pair<std::string, std::string>>& ends) {
+    try {
+      named_groups(skeleton, ends);
+    } catch (const Failure& failure) {
+      return failure.diagnostic().code + " " + failure.diagnostic().param;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal({{"a", "x"}}), "unknown-joint groups[0]");
+  EXPECT_EQ(refusal({{"c", "a"}}), "bad-group groups[0]");
+  EXPECT_EQ(refusal({{"a", "c"}, {"b", "e"}}), "bad-group groups[1]");
+}
+
+}  // namespace
+}  // namespace kinegraph
