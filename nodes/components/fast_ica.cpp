@@ -13,37 +13,26 @@ int kind_of(Nonlinearity nonlinearity) {
   return static_cast<int>(nonlinearity);
 }
 
-// E[z g(w'z)] (rows of the fixed-point update), E[g'] and β = E[w'z g(w'z)] for the rows of w.
+// E[z g(w'z)] (rows of the fixed-point update) and E[g'] for the rows of w.
 struct Moments {
   Rows zg;
-  std::vector<double> slope, beta;
+  std::vector<double> slope;
 };
 Moments moments(const Rows& w, const Rows& z, Nonlinearity nonlinearity, Rows& y, Work& work) {
   const std::size_t m = w.rows, k = z.rows, columns = z.columns;
   if (y.rows != m || y.columns != columns) y = Rows(m, columns);
-  Moments out{Rows(m, k), std::vector<double>(m), std::vector<double>(m)};
+  Moments out{Rows(m, k), std::vector<double>(m)};
+  double beta = 0;
   mix_rows(w.data.data(), m, k, z.data.data(), columns, y.data.data());
   work.check();
   for (std::size_t i = 0; i < m; ++i)
-    nonlinearity_of_row(kind_of(nonlinearity), y.row(i), columns, &out.slope[i], &out.beta[i]);
+    nonlinearity_of_row(kind_of(nonlinearity), y.row(i), columns, &out.slope[i], &beta);
   work.check();
   products_of_rows(y.data.data(), m, z.data.data(), k, columns, false, out.zg.data.data());
   const double scale = 1.0 / static_cast<double>(columns);
   for (double& x : out.zg.data) x *= scale;
   for (double& x : out.slope) x *= scale;
-  for (double& x : out.beta) x *= scale;
   return out;
-}
-
-// w⁺ = E[z g(w'z)] - E[g'(w'z)] w; with a step μ < 1 the stabilised form
-// w⁺ = w - μ (E[z g] - β w) / (E[g'] - β), which is the same direction at μ = 1.
-Rows stepped(const Rows& w, const Moments& m, double mu) {
-  Rows next = w;
-  for (std::size_t i = 0; i < w.rows; ++i)
-    for (std::size_t j = 0; j < w.columns; ++j)
-      next(i, j) = mu == 1 ? m.zg(i, j) - m.slope[i] * w(i, j)
-                           : w(i, j) - mu / (m.slope[i] - m.beta[i]) * (m.zg(i, j) - m.beta[i] * w(i, j));
-  return next;
 }
 
 double dot(const double* a, const double* b, std::size_t n) {
@@ -59,22 +48,60 @@ double change(const Rows& a, const Rows& b) {
   return largest;
 }
 
-constexpr double smallest_step = 1.0 / 64;
+// w⁺ = E[z g(w'z)] - E[g'(w'z)] w, each row's sign so that it points as w does.
+Rows stepped(const Rows& w, const Moments& m) {
+  Rows next = w;
+  for (std::size_t i = 0; i < w.rows; ++i)
+    for (std::size_t j = 0; j < w.columns; ++j) next(i, j) = m.zg(i, j) - m.slope[i] * w(i, j);
+  return next;
+}
+void point_alike(Rows& next, const Rows& w) {
+  for (std::size_t i = 0; i < w.rows; ++i)
+    if (dot(next.row(i), w.row(i), w.columns) < 0)
+      for (std::size_t j = 0; j < w.columns; ++j) next(i, j) = -next(i, j);
+}
+Rows between(const Rows& w, const Rows& next, double mu) {
+  Rows out = w;
+  for (std::size_t i = 0; i < w.data.size(); ++i) out.data[i] += mu * (next.data[i] - w.data[i]);
+  return out;
+}
+
+// How far along the fixed-point step a run goes. It is halved when the steps have not become smaller for a
+// while: the run goes round and round then (stabilised FastICA).
+class Step {
+ public:
+  double size() const { return size_; }
+  // `change`: that of the whole step, whatever part of it was gone.
+  void after(double change) {
+    if (change < 0.8 * least_) {
+      least_ = change;
+      waited_ = 0;
+    } else if (++waited_ >= patience && size_ > 1.0 / 64) {
+      size_ /= 2;
+      waited_ = 0;
+      least_ = change;
+    }
+  }
+
+ private:
+  static constexpr int patience = 8;
+  double size_ = 1, least_ = 1;
+  int waited_ = 0;
+};
 
 FastIcaRun symmetric_run(const Rows& z, const Rows& start, const FastIcaParams& params, Work& work) {
   FastIcaRun run;
   Rows y;
-  Rows w = nearest_orthonormal(start), before = w;
-  double mu = 1;
+  Rows w = nearest_orthonormal(start);
+  Step step;
   for (int iteration = 1; iteration <= params.iterations && !run.converged; ++iteration) {
-    Rows next = nearest_orthonormal(stepped(w, moments(w, z, params.nonlinearity, y, work), mu));
+    Rows next = nearest_orthonormal(stepped(w, moments(w, z, params.nonlinearity, y, work)));
+    point_alike(next, w);
     run.iterations = iteration;
     run.reached = change(next, w);
     run.converged = run.reached < params.tolerance;
-    // Back where it was two steps ago, but not one: it oscillates.
-    if (!run.converged && iteration > 2 && change(next, before) < params.tolerance && mu > smallest_step)
-      mu /= 2;
-    before = std::move(w);
+    if (!run.converged && step.size() < 1) next = nearest_orthonormal(between(w, next, step.size()));
+    step.after(run.reached);
     w = std::move(next);
   }
   run.w = std::move(w);
@@ -99,16 +126,18 @@ FastIcaRun deflation_run(const Rows& z, const Rows& start, const FastIcaParams& 
     Rows w(1, start.columns);
     std::copy_n(start.row(i), start.columns, w.row(0));
     make_new(w, found, 0);
-    Rows before = w;
-    double mu = 1, reached = 1;
+    Step step;
+    double reached = 1;
     for (int iteration = 1; iteration <= params.iterations && reached >= params.tolerance; ++iteration) {
-      Rows next = stepped(w, moments(w, z, params.nonlinearity, y, work), mu);
+      Rows next = stepped(w, moments(w, z, params.nonlinearity, y, work));
       make_new(next, found, i);
+      point_alike(next, w);
       reached = change(next, w);
-      if (reached >= params.tolerance && iteration > 2 && change(next, before) < params.tolerance &&
-          mu > smallest_step)
-        mu /= 2;
-      before = std::move(w);
+      if (reached >= params.tolerance && step.size() < 1) {
+        next = between(w, next, step.size());
+        make_new(next, found, i);
+      }
+      step.after(reached);
       w = std::move(next);
       run.iterations = std::max(run.iterations, iteration);
     }
@@ -227,6 +256,67 @@ FastIcaRun fast_ica(const Rows& z, const Rows& start, const FastIcaParams& param
   return run;
 }
 
+namespace {
+
+constexpr double gaussian_log_cosh = 0.3745672;  // E[log cosh ν] of a standard normal ν
+
+// The angle by which turning a and b into each other gives the largest negentropy, of seven and none; by
+// every `stride`-th sample.
+double best_turn(const double* a, const double* b, std::size_t count, std::size_t stride) {
+  double best = 0, most = 0;
+  for (int step = 0; step < 8; ++step) {
+    const double angle = step * pi / 16;
+    const SinCos turn = sin_cos(angle);
+    double first = 0, second = 0;
+    std::size_t n = 0;
+    for (std::size_t t = 0; t < count; t += stride, ++n) {
+      first += log_cosh(turn.cos * a[t] + turn.sin * b[t]);
+      second += log_cosh(turn.cos * b[t] - turn.sin * a[t]);
+    }
+    first = first / static_cast<double>(n) - gaussian_log_cosh;
+    second = second / static_cast<double>(n) - gaussian_log_cosh;
+    const double worth = first * first + second * second;
+    if (step == 0 || worth > 1.02 * most) {
+      most = worth;
+      best = angle;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+constexpr std::size_t most_pairwise = 20;  // components; beyond, pairs are too many to try
+
+FastIcaRun leave_side_optimum(const Rows& z, FastIcaRun run, const FastIcaParams& params, Work& work) {
+  const std::size_t k = run.w.rows, stride = std::max<std::size_t>(1, z.columns / 1000);
+  for (int round = 0; round < 4 && k <= most_pairwise; ++round) {
+    const Rows u = rotated(run.w, z);
+    Rows start = run.w;
+    bool turned = false;
+    std::vector<bool> taken(k, false);
+    for (std::size_t i = 0; i < k; ++i) {
+      for (std::size_t j = i + 1; j < k && !taken[i]; ++j) {
+        if (taken[j]) continue;
+        work.check();
+        const double angle = best_turn(u.row(i), u.row(j), z.columns, stride);
+        if (angle == 0) continue;
+        const SinCos turn = sin_cos(angle);
+        for (std::size_t c = 0; c < k; ++c) {
+          start(i, c) = turn.cos * run.w(i, c) + turn.sin * run.w(j, c);
+          start(j, c) = turn.cos * run.w(j, c) - turn.sin * run.w(i, c);
+        }
+        taken[i] = taken[j] = turned = true;
+      }
+    }
+    if (!turned) break;
+    FastIcaRun other = fast_ica(z, start, params, work);
+    if (other.negentropy <= run.negentropy || (run.converged && !other.converged)) break;
+    run = std::move(other);
+  }
+  return run;
+}
+
 Rows starting_rotation(std::size_t k, int n, std::uint64_t seed) {
   if (seed == 0 && n == 0) return identity(k);
   Rows w(k, k);
@@ -248,13 +338,12 @@ Rows rotated(const Rows& w, const Rows& z) {
 }
 
 double negentropy(const Rows& u) {
-  constexpr double gaussian = 0.3745672;  // E[log cosh ν] of a standard normal ν
   double sum = 0;
   for (std::size_t i = 0; i < u.rows; ++i) {
     double mean = 0;
     for (std::size_t t = 0; t < u.columns; ++t) mean += log_cosh(u(i, t));
     mean /= static_cast<double>(u.columns);
-    sum += (mean - gaussian) * (mean - gaussian);
+    sum += (mean - gaussian_log_cosh) * (mean - gaussian_log_cosh);
   }
   return sum;
 }

@@ -47,9 +47,15 @@ struct FastIcaRun {
   double negentropy = 0;  // Σ (E[log cosh u] - 0.3745672)²
 };
 
-// One run from `start` (k x k, any regular matrix; rows are the first guesses). A run that oscillates between
-// two solutions goes on with half the step (stabilised FastICA).
+// One run from `start` (k x k, any regular matrix; rows are the first guesses). A run that goes round
+// without coming nearer goes on with half the step (stabilised FastICA).
 FastIcaRun fast_ica(const Rows& z, const Rows& start, const FastIcaParams& params, Work& work);
+
+// A run may have ended in an optimum that turning just two of its components would leave [Tichavský,
+// Koldovský & Oja 2006, test of saddle points]: such turns are tried for every pair, and where one has a
+// larger negentropy FastICA goes on from there. Returns the better run, or `run` (also where there are more
+// than 20 components).
+FastIcaRun leave_side_optimum(const Rows& z, FastIcaRun run, const FastIcaParams& params, Work& work);
 
 // The n-th starting rotation of a fixed sequence: the identity first, then quasi-random. With seed != 0 all
 // are random.

@@ -43,15 +43,12 @@ Starts run_starts(const Rows& z, const IcaParams& params, Work& work) {
       out.all[n] =
           fast_ica(z, starting_rotation(z.rows, static_cast<int>(n), params.seed), params.fast_ica, work);
   });
-  // A converged run before one that isn't, then the largest negentropy, then the first.
+  // The largest negentropy; a run that did not converge counts 1 % less; then the first.
+  const auto worth = [&](std::size_t n) { return out.all[n].negentropy * (out.all[n].converged ? 1 : 0.99); };
   std::size_t best = 0;
-  for (std::size_t n = 1; n < count; ++n) {
-    const bool better = out.all[n].converged != out.all[best].converged
-                            ? out.all[n].converged
-                            : out.all[n].negentropy > out.all[best].negentropy;
-    if (better) best = n;
-  }
-  out.best = out.all[best];
+  for (std::size_t n = 1; n < count; ++n)
+    if (worth(n) > worth(best)) best = n;
+  out.best = leave_side_optimum(z, out.all[best], params.fast_ica, work);
   return out;
 }
 

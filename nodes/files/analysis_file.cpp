@@ -12,6 +12,7 @@ namespace kinegraph {
 const std::vector<AnalysisKind>& analysis_kinds() {
   static const std::vector<AnalysisKind> kinds = {
       {"stats", "Stats", stats_json, stats_of_json, stats_table},
+      {"components", "Components", components_json, components_of_json, components_table},
       {"warp", "Warp", warp_json, warp_of_json, warp_table},
       {"contacts", "Contacts", contacts_json, contacts_of_json, contacts_table},
       {"metrics", "Metrics", metrics_json, metrics_of_json, metrics_table},

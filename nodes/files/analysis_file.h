@@ -32,6 +32,9 @@ Json stats_json(const Value& stats);
 ValuePtr stats_of_json(const Json& json);
 std::string stats_table(
     const Value& stats);  // joint, mean x y z w, spread, Euler means and spreads; then the root's travel
+Json components_json(const Value& components);  // mean, mixing matrix, signals, convergence, and the clips themselves
+ValuePtr components_of_json(const Json& json);
+std::string components_table(const Value& components);  // frame, segment, u1, u2, …
 Json warp_json(const Value& warp);
 ValuePtr warp_of_json(const Json& json);
 std::string warp_table(const Value& warp);  // row, frame shown (one column a path)

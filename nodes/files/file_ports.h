@@ -16,6 +16,7 @@ inline const std::vector<FilePort>& file_ports() {
       {"points", "Points", "Labelled points over time, in metres and Y up."},
       {"character", "Character", "A skinned mesh on its skeleton."},
       {"stats", "Stats", "The statistics that carry a motion's style."},
+      {"components", "Components", "Independent components of one or several clips."},
       {"warp", "Warp", "A time warp between two motions."},
       {"contacts", "Contacts", "When which part of a foot is planted."},
       {"metrics", "Metrics", "Named numbers."},
