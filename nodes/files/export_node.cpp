@@ -83,6 +83,14 @@ NodeType export_node() {
     const std::string found = write_format_of(file->second.string());
     if (!found.empty()) format->second = found;
   };
+  type.also_writes = [](const Params& params) {
+    const std::string& path = params.text("file");
+    const std::string& named = params.text("format");
+    std::vector<std::string> files;
+    if (!path.empty() && (named == "auto" ? write_format_of(path) : named) == "gltf")
+      files.push_back(path.substr(0, path.find_last_of('/') + 1) + gltf_buffer_name(path));
+    return files;
+  };
   type.compute = export_file;
   return type;
 }

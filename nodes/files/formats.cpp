@@ -9,6 +9,7 @@
 #include "nodes/files/c3d.h"
 #include "nodes/files/gltf_file.h"
 #include "nodes/files/gltf_read.h"
+#include "nodes/files/gltf_write.h"
 #include "nodes/files/points_table.h"
 #include "nodes/files/text_place.h"
 #include "nodes/files/trc.h"
@@ -118,6 +119,27 @@ EncodedFile write_trc_file(const FileToWrite& file, Work& work) {
   return {write_trc(points_of(file), file.path.substr(folder + 1), file.options, work), {}};
 }
 
+GltfOut gltf_to_write(const FileToWrite& file, Work& work) {
+  const Motion* motion = nullptr;
+  const Character* character = nullptr;
+  for (const FileContent& content : file.contents) {
+    if (content.port == "motion") motion = dynamic_cast<const Motion*>(content.value.get());
+    if (content.port == "character") character = dynamic_cast<const Character*>(content.value.get());
+  }
+  return gltf_of(motion, character, file.options, work);
+}
+
+EncodedFile write_glb_file(const FileToWrite& file, Work& work) {
+  return {gltf_to_write(file, work).glb(), {}};
+}
+
+EncodedFile write_gltf_file(const FileToWrite& file, Work& work) {
+  GltfOut out = gltf_to_write(file, work);
+  const std::string name = gltf_buffer_name(file.path);
+  std::string text = out.text(name);
+  return {std::move(text), {{name, out.binary()}}};
+}
+
 EncodedFile write_csv_file(const FileToWrite& file, Work& work) {
   const FileContent& content = file.contents.front();
   if (content.port == "points") return {write_points_table(points_of(file), work), {}};
@@ -163,8 +185,12 @@ const std::vector<ReadFormat>& read_formats() {
 const std::vector<WriteFormat>& write_formats() {
   static const std::vector<WriteFormat> formats = {
       {"bvh", "Biovision hierarchy", {"bvh"}, {"motion"}, write_bvh_file},
-      {"glb", "glTF 2.0, one binary file", {"glb"}, {"motion", "character", "points"}},
-      {"gltf", "glTF 2.0, text with its buffers beside it", {"gltf"}, {"motion", "character", "points"}},
+      {"glb", "glTF 2.0, one binary file", {"glb"}, {"motion", "character"}, write_glb_file},
+      {"gltf",
+       "glTF 2.0, text with its buffer beside it",
+       {"gltf"},
+       {"motion", "character"},
+       write_gltf_file},
       {"c3d", "C3D markers", {"c3d"}, {"points"}, write_c3d_file},
       {"trc", "TRC markers", {"trc"}, {"points"}, write_trc_file},
       {"csv", "A table", {"csv"}, table_ports(), write_csv_file},
@@ -178,6 +204,13 @@ std::string read_format_of(std::string_view path) {
 }
 std::string write_format_of(std::string_view path) {
   return format_of(write_formats(), path);
+}
+
+std::string gltf_buffer_name(std::string_view path) {
+  std::string_view name = path.substr(path.find_last_of('/') + 1);
+  if (const std::size_t dot = name.find_last_of('.'); dot != std::string_view::npos && dot > 0)
+    name = name.substr(0, dot);
+  return std::string(name) + ".bin";
 }
 
 }  // namespace kinegraph

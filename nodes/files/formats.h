@@ -43,5 +43,7 @@ const std::vector<WriteFormat>& write_formats();
 // The key of the format of that ending, or "" ("clip.BVH" is bvh).
 std::string read_format_of(std::string_view path);
 std::string write_format_of(std::string_view path);
+// The file that a .gltf's numbers go to, beside it: "walk.bin" of "/x/walk.gltf".
+std::string gltf_buffer_name(std::string_view path);
 
 }  // namespace kinegraph
