@@ -16,6 +16,20 @@ NodeType switch_node() {
   return type;
 }
 
+NodeType graph_node() {
+  NodeType type;
+  type.name = "Graph";
+  type.category = "graph";
+  type.help =
+      "Another graph file as one node. Its inputs, outputs and further parameters are what that file "
+      "publishes; Exports "
+      "and Checks inside it don't run.";
+  type.keywords = {"nested", "subgraph", "group", "reuse", "pipeline", "preset"};
+  type.role = Role::graph;
+  type.param("file", open_file(), "The graph file.");
+  return type;
+}
+
 NodeType dot_node() {
   NodeType type;
   type.name = "Dot";

@@ -8,5 +8,7 @@ namespace kinegraph {
 NodeType switch_node();
 // A bend in a link.
 NodeType dot_node();
+// Another graph file as one node; its ports and further parameters are what that file publishes (see nested.h).
+NodeType graph_node();
 
 }  // namespace kinegraph

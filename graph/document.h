@@ -2,6 +2,7 @@
 // given by plan.h. Everything in it can be addressed as a Unit, and undo, diff and merge all speak in units.
 #pragma once
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ struct Inputs {
   bool operator==(const Inputs& other) const { return links == other.links && list == other.list; }
 };
 
+struct Nested;  // see nested.h
+
 struct Node {
   std::string type;
   int version = 1;
@@ -42,6 +45,7 @@ struct Node {
   std::optional<Json> missing;
   bool older = false;  // a known type's older version, read without migrating: kept in `missing` too, for writing only
   Place place;         // of its name
+  std::shared_ptr<const Nested> nested;  // of a Graph node: its file, once open_nested() has read it; never saved
 };
 
 // Names -> "node.param" or "node.port" targets. One target is written as a string, several as a list.

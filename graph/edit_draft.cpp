@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "graph/nested.h"
+
 namespace kinegraph {
 
 void EditDraft::set(const Unit& unit, std::optional<Json> after) {
@@ -106,7 +108,7 @@ const Node& node_or_fail(const Document& document, const std::string& name) {
 
 const NodeType& type_or_fail(const Document& document, const Registry& registry, const std::string& name) {
   const Node& node = node_or_fail(document, name);
-  const NodeType* type = node.missing ? nullptr : registry.find(node.type);
+  const NodeType* type = known_type(registry, node);
   if (!type)
     throw Failure(error("missing-node", fmt::format("{} is missing and kept as it stands", name))
                       .at_node(name)
@@ -121,7 +123,7 @@ std::optional<Link> link_past(const Document& document, const Registry& registry
   for (std::size_t step = 0; step <= document.nodes.size() && is_gone(at.node); ++step) {
     const auto node = document.nodes.find(at.node);
     if (node == document.nodes.end() || node->second.missing) return {};
-    const NodeType* type = registry.find(node->second.type);
+    const NodeType* type = known_type(registry, node->second);
     const OutputPort* output = type ? type->find_output(at.port) : nullptr;
     if (!output || output->passes.empty()) return {};
     const auto inputs = node->second.inputs.find(output->passes);

@@ -6,6 +6,8 @@
 #include <functional>
 #include <set>
 
+#include "graph/nested.h"
+
 namespace kinegraph {
 
 namespace {
@@ -23,7 +25,7 @@ std::optional<std::string> type_through(const Document& document, const Registry
                                         std::set<std::string>& visited) {
   const Node* node = find_node(document, link.node);
   if (!node || node->missing) return {};
-  const NodeType* type = registry.find(node->type);
+  const NodeType* type = known_type(registry, *node);
   const OutputPort* output = type ? type->find_output(link.port) : nullptr;
   if (!output) return {};
   if (!output->type.empty()) return output->type;
@@ -40,7 +42,7 @@ std::optional<Diagnostic> objection_behind(const Document& document, const Regis
                                            std::set<std::string>& visited) {
   if (!visited.insert(node).second) return {};
   for (const auto& [name, consumer] : document.nodes) {
-    const NodeType* consumer_type = consumer.missing ? nullptr : registry.find(consumer.type);
+    const NodeType* consumer_type = known_type(registry, consumer);
     if (!consumer_type) continue;
     for (const auto& [port, inputs] : consumer.inputs) {
       const bool linked = std::any_of(inputs.links.begin(), inputs.links.end(),
@@ -89,22 +91,22 @@ std::optional<Diagnostic> objection_to_link(const Document& document, const Regi
     for (const auto& [name, other] : document.nodes) all.push_back(name);
     return all;
   };
-  const auto known_type =
+  const auto type_at =
       [&](const std::string& name) -> std::pair<const NodeType*, std::optional<Diagnostic>> {
     const Node* found = find_node(document, name);
     if (!found)
       return {nullptr, error("unknown-node", fmt::format("there is no node \"{}\"", name))
                            .hinting(suggestion(name, names()))};
-    const NodeType* type = found->missing ? nullptr : registry.find(found->type);
+    const NodeType* type = known_type(registry, *found);
     if (!type)
       return {
           nullptr,
           error("missing-node", fmt::format("{} is missing: its ports are not known", name)).at_node(name)};
     return {type, std::nullopt};
   };
-  const auto [giver, no_giver] = known_type(from.node);
+  const auto [giver, no_giver] = type_at(from.node);
   if (no_giver) return no_giver;
-  const auto [taker, no_taker] = known_type(node);
+  const auto [taker, no_taker] = type_at(node);
   if (no_taker) return no_taker;
   if (!giver->find_output(from.port))
     return error("unknown-port", fmt::format("{} has no output \"{}\"", from.node, from.port))

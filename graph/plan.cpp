@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <deque>
 #include <set>
 
+#include "graph/nested.h"
 #include "graph/variables.h"
 
 namespace kinegraph {
@@ -63,6 +66,16 @@ struct Scope {
   std::string prefix;
   Folders folders;
   Variables variables;
+  const Scope* outer = nullptr;
+  std::string graph;  // the Graph node's name in the outer scope
+  struct Given {      // by the Graph node, through what is published: complete, paths absolute
+    Json value;
+    std::map<std::string, std::string> shown_paths;
+  };
+  using Spot = std::pair<std::string, std::string>;
+  std::map<Spot, Given> given = {};  // node, param
+  std::map<Spot, std::string> published_inputs =
+      {};  // node, port -> the published name that is linked outside
 };
 
 class Planner {
@@ -83,6 +96,7 @@ class Planner {
     read_sets();
     add_nodes(root_);
     connect(root_);
+    for (const Scope& inner : inner_scopes_) connect(inner);
     for (const auto& [name, targets] : root_.document.publish.outputs)
       if (!targets.empty())
         if (auto source = source_of(root_, targets.front())) plan_.published[name] = *source;
@@ -131,7 +145,7 @@ class Planner {
                           .hinting(suggestion(target.node, names)),
                       "", true);
     }
-    const NodeType* type = node->second.missing ? nullptr : registry_.find(node->second.type);
+    const NodeType* type = known_type(registry_, node->second);
     const Param* param = type ? type->find_param(target.port) : nullptr;
     if (!param)
       return complain(
@@ -151,7 +165,9 @@ class Planner {
     for (const auto& [name, node] : scope.document.nodes) {
       PlannedNode planned;
       planned.name = scope.prefix + name;
-      planned.type = node.missing ? nullptr : registry_.find(node.type);
+      planned.type = known_type(registry_, node);
+      if (planned.type && is_unopened(*planned.type, node)) planned.type = nullptr;
+      if (node.nested && !node.nested->type) planned.missing_because = node.nested->why.message;
       planned.type_name = node.type;
       planned.enabled = node.enabled;
       if (planned.type) set_params(scope, name, node, planned);
@@ -159,6 +175,8 @@ class Planner {
         const Json& index = planned.params.at("index");
         if (index.is_number()) chosen_[planned.name] = index.number();
       }
+      if (planned.type && planned.type->role == Role::graph && node.enabled)
+        open_graph(scope, name, node, planned);
       if (!node.enabled || (planned.type && planned.type->role != Role::compute)) plan_.passed[planned.name];
       if (planned.type && planned.type->role != Role::compute) continue;
       if (node.enabled && planned.type && planned.type->effect != Effect::none && scope.prefix.empty())
@@ -168,11 +186,63 @@ class Planner {
     }
   }
 
+  // The nodes of a Graph node's file, with what is set and linked from outside.
+  void open_graph(const Scope& scope, const std::string& name, const Node& node, const PlannedNode& planned) {
+    const Nested& nested = *node.nested;
+    if (std::find(plan_.graph_files.begin(), plan_.graph_files.end(), nested.path) == plan_.graph_files.end())
+      plan_.graph_files.push_back(nested.path);
+    Scope& inner = inner_scopes_.emplace_back(
+        Scope{*nested.document, planned.name + "/", {nested.folder, scope.folders.write}, scope.variables});
+    inner.variables.files.push_back(&nested.document->variables);
+    inner.outer = &scope;
+    inner.graph = name;
+    for (const auto& [published, targets] : nested.document->publish.params) {
+      const bool is_given = scope.given.contains({name, published}) || node.params.contains(published) ||
+                            (scope.prefix.empty() && sets_.contains({name, published}));
+      const auto value = planned.params.find(published);
+      if (!is_given || value == planned.params.end()) continue;
+      Scope::Given passed{value->second, {}};
+      for (const auto& [where, path] : planned.shown_paths)
+        if (where == published || where.starts_with(published + ".") || where.starts_with(published + "["))
+          passed.shown_paths[where.substr(published.size())] = path;
+      for (const Link& target : targets) inner.given[{target.node, target.port}] = passed;
+    }
+    for (const auto& [published, targets] : nested.document->publish.inputs)
+      if (!links_of(scope, name, published).links.empty())
+        for (const Link& target : targets) inner.published_inputs[{target.node, target.port}] = published;
+    inner_[planned.name] = &inner;
+    add_nodes(inner);
+  }
+
+  // What is linked to a port, and in whose names: that of a published port that is linked outside, else the
+  // file's own.
+  struct Linked {
+    const Scope* scope;
+    std::vector<Link> links;
+  };
+  Linked links_of(const Scope& scope, const std::string& name, const std::string& port) const {
+    if (const auto published = scope.published_inputs.find({name, port});
+        published != scope.published_inputs.end())
+      return links_of(*scope.outer, scope.graph, published->second);
+    const Node& node = scope.document.nodes.at(name);
+    const auto inputs = node.inputs.find(port);
+    return {&scope, inputs == node.inputs.end() ? std::vector<Link>() : inputs->second.links};
+  }
+
   void set_params(const Scope& scope, const std::string& name, const Node& node, PlannedNode& planned) {
     for (const Param& param : planned.type->params) {
+      if (const auto passed = scope.given.find({name, param.name}); passed != scope.given.end()) {
+        planned.params[param.name] = passed->second.value;
+        for (const auto& [where, path] : passed->second.shown_paths)
+          planned.shown_paths[param.name + where] = path;
+        continue;
+      }
       const auto given = scope.prefix.empty() ? sets_.find({name, param.name}) : sets_.end();
       const bool is_set = given != sets_.end();
       const auto stored = node.params.find(param.name);
+      // What a Graph node doesn't set stays as its file has it.
+      const bool published = planned.type->role == Role::graph && param.name != "file";
+      if (published && !is_set && stored == node.params.end()) continue;
       const Json& written = is_set                        ? given->second
                             : stored != node.params.end() ? stored->second
                                                           : *param.fallback;
@@ -207,29 +277,34 @@ class Planner {
     for (const auto& [name, node] : scope.document.nodes) {
       const std::string full = scope.prefix + name;
       if (const auto passed = plan_.passed.find(full); passed != plan_.passed.end())
-        if (const NodeType* type = node.missing ? nullptr : registry_.find(node.type))
+        if (const NodeType* type = known_type(registry_, node))
           for (const OutputPort& output : type->outputs)
             if (auto source = source_of(scope, {name, output.name, {}}))
               passed->second[output.name] = *source;
       const auto index = plan_.by_name.find(full);
       if (index == plan_.by_name.end()) continue;
       PlannedNode& planned = plan_.nodes[static_cast<std::size_t>(index->second)];
-      for (const auto& [port, inputs] : node.inputs)
-        for (const Link& link : inputs.links)
-          if (auto source = source_of(scope, link)) planned.inputs[port].push_back(*source);
-      if (planned.type && planned.enabled) planned.blocked = why_blocked(node, planned);
+      std::set<std::string> ports;
+      for (const auto& [port, inputs] : node.inputs) ports.insert(port);
+      for (const auto& [spot, published] : scope.published_inputs)
+        if (spot.first == name) ports.insert(spot.second);
+      for (const std::string& port : ports) {
+        const Linked linked = links_of(scope, name, port);
+        for (const Link& link : linked.links)
+          if (auto source = source_of(*linked.scope, link)) planned.inputs[port].push_back(*source);
+      }
+      if (planned.type && planned.enabled) planned.blocked = why_blocked(scope, name, planned);
     }
   }
 
-  static std::string why_blocked(const Node& node, const PlannedNode& planned) {
+  std::string why_blocked(const Scope& scope, const std::string& name, const PlannedNode& planned) const {
     for (const InputPort& port : planned.type->inputs) {
       if (port.optional || planned.inputs.count(port.name)) continue;
-      const auto linked = node.inputs.find(port.name);
-      if (linked == node.inputs.end() || linked->second.links.empty())
-        return fmt::format("its input \"{}\" is open", port.name);
+      const Linked linked = links_of(scope, name, port.name);
+      if (linked.links.empty()) return fmt::format("its input \"{}\" is open", port.name);
       return fmt::format(
           "its input \"{}\" is open: {} gives nothing while nodes before it are disabled or open", port.name,
-          to_text(linked->second.links.front()));
+          linked.scope->prefix + to_text(linked.links.front()));
     }
     return "";
   }
@@ -252,17 +327,23 @@ class Planner {
     if (found == scope.document.nodes.end()) return {};
     const Node& node = found->second;
     const std::string full = scope.prefix + link.node;
-    if (!node.enabled) return source_past(scope, node, link);
-    const NodeType* type = node.missing ? nullptr : registry_.find(node.type);
-    if (!type || type->role == Role::compute) return Source{plan_.by_name.at(full), link.port, nullptr, ""};
+    if (!node.enabled) return source_past(scope, link);
+    const NodeType* type = known_type(registry_, node);
+    if (!type || type->role == Role::compute || is_unopened(*type, node))
+      return Source{plan_.by_name.at(full), link.port, nullptr, ""};
     if (type->role == Role::select) return chosen_source(scope, node, link);
-    if (type->role == Role::pass) return source_past(scope, node, link);
-    return {};
+    if (type->role == Role::pass) return source_past(scope, link);
+    const auto inner = inner_.find(full);
+    if (inner == inner_.end()) return {};
+    const auto& outputs = inner->second->document.publish.outputs;
+    const auto published = outputs.find(link.port);
+    if (published == outputs.end() || published->second.empty()) return {};
+    return source_of(*inner->second, published->second.front());
   }
 
   // Of a disabled node or a Dot: what the registry says the output passes on.
-  std::optional<Source> source_past(const Scope& scope, const Node& node, const Link& link) {
-    const NodeType* type = node.missing ? nullptr : registry_.find(node.type);
+  std::optional<Source> source_past(const Scope& scope, const Link& link) {
+    const NodeType* type = known_type(registry_, scope.document.nodes.at(link.node));
     const OutputPort* output = type ? type->find_output(link.port) : nullptr;
     if (!output) return {};
     if (output->constant) {
@@ -271,9 +352,10 @@ class Planner {
       if (!value) value = output->constant();
       return Source{-1, output->name, value, id};
     }
-    const auto inputs = node.inputs.find(output->passes);
-    if (inputs == node.inputs.end() || inputs->second.links.empty()) return {};
-    return source_of(scope, inputs->second.links.front());
+    if (output->passes.empty()) return {};
+    const Linked linked = links_of(scope, link.node, output->passes);
+    if (linked.links.empty()) return {};
+    return source_of(*linked.scope, linked.links.front());
   }
 
   std::optional<Source> chosen_source(const Scope& scope, const Node& node, const Link& link) {
@@ -281,8 +363,8 @@ class Planner {
     const NodeType* type = registry_.find(node.type);
     const auto chosen = chosen_.find(full);
     if (type->inputs.empty() || chosen == chosen_.end()) return {};
-    const auto inputs = node.inputs.find(type->inputs.front().name);
-    const std::size_t count = inputs == node.inputs.end() ? 0 : inputs->second.links.size();
+    const Linked linked = links_of(scope, link.node, type->inputs.front().name);
+    const std::size_t count = linked.links.size();
     if (!(chosen->second < static_cast<double>(count))) {
       if (complained_.insert(full).second) {
         complain(error("index-out-of-range",
@@ -293,13 +375,15 @@ class Planner {
       }
       return {};
     }
-    return source_of(scope, inputs->second.links[static_cast<std::size_t>(chosen->second)]);
+    return source_of(*linked.scope, linked.links[static_cast<std::size_t>(chosen->second)]);
   }
 
   const Registry& registry_;
   const PlanOptions& options_;
   Diagnostics& problems_;
   Scope root_;
+  std::deque<Scope> inner_scopes_;             // of the nested files; they stay where they are
+  std::map<std::string, const Scope*> inner_;  // by the Graph node's full name
   Plan plan_;
   std::map<std::pair<std::string, std::string>, Json> sets_;  // node, param -> value
   std::map<std::string, double> chosen_;                      // of a Switch, by full name: its index

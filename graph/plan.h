@@ -30,6 +30,7 @@ struct PlannedNode {
   std::map<std::string, std::vector<Source>> inputs;
   // Why this node can't run although nothing failed yet: a required input is absent. Empty = can.
   std::string blocked;
+  std::string missing_because;  // of a Graph node: why its file can't be used
 };
 
 struct Plan {
@@ -58,7 +59,7 @@ struct PlanOptions {
   std::map<std::string, Json> variables;  // given with --var: a string is read as the parameter's type asks
   std::vector<std::pair<std::string, std::string>> sets;  // "NODE.PARAM" (or a published name) and the text
 };
-// `document` has passed validate() without errors. Adds problems; the plan is usable without errors among them. Those of
+// Graph nodes have been opened (see nested.h); those that were not are missing. `document` has passed validate() without errors. Adds problems; the plan is usable without errors among them. Those of
 // a --set are wrong usage and their codes start "usage:" ("usage:unknown-node", "usage:unknown-param",
 // "usage:bad-value", and "usage:" before the codes of check()).
 Plan make_plan(const Document& document, const Registry& registry, const PlanOptions& options, Diagnostics& problems);

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "graph/links.h"
+#include "graph/nested.h"
 
 namespace kinegraph {
 
@@ -19,7 +20,8 @@ class Validator {
   Validator(const Document& document, const Registry& registry, const ValidateOptions& options)
       : document_(document), registry_(registry), options_(options) {
     variables_.given = options.variables;
-    variables_.files = {&document.variables};
+    variables_.files = options.outer_variables;
+    variables_.files.push_back(&document.variables);
     variables_.batch_fills_in = true;
     for (const auto& [name, node] : document.nodes) names_.push_back(name);
   }
@@ -27,7 +29,8 @@ class Validator {
   Diagnostics validate() {
     if (document_.read_only) return {};
     for (const auto& [name, node] : document_.nodes) {
-      const NodeType* type = node.missing ? nullptr : registry_.find(node.type);
+      if (node.nested && !node.nested->type) check_file_of_graph(name, node);
+      const NodeType* type = known_type(registry_, node);
       if (!type) continue;  // reading has spoken of it
       check_params(name, node, *type);
       check_inputs(name, node, *type);
@@ -69,6 +72,11 @@ class Validator {
   void check_params(const std::string& name, const Node& node, const NodeType& type) {
     for (const auto& [key, stored] : node.params) {
       const Param* param = type.find_param(key);
+      if (!param && node.nested)
+        add(error("unknown-param", fmt::format("{} publishes no parameter {}", file_of(node), in_quotes(key)))
+                .at_param(key)
+                .hinting(suggestion(key, type.param_names())),
+            stored.key_place, name);
       if (!param) continue;
       Diagnostics found;
       const auto value = value_of(node, *param, found);
@@ -163,16 +171,51 @@ class Validator {
   }
 
   void check_inputs(const std::string& name, const Node& node, const NodeType& type) {
-    for (const auto& [key, inputs] : node.inputs)
-      if (const InputPort* port = type.find_input(key))
+    for (const auto& [key, inputs] : node.inputs) {
+      if (const InputPort* port = type.find_input(key)) {
+        if (node.nested) check_list(name, *port, inputs);
         for (const Link& link : inputs.links) check_link(name, *port, link);
-    if (!node.enabled || type.role != Role::compute) return;
+      } else if (node.nested) {
+        add(error("unknown-port", fmt::format("{} publishes no input {}", file_of(node), in_quotes(key)))
+                .at_port(key)
+                .hinting(suggestion(key, type.input_names())),
+            inputs.place, name);
+      }
+    }
+    if (!node.enabled || (type.role != Role::compute && !node.nested)) return;
     for (const InputPort& port : type.inputs)
       if (!port.optional && !node.inputs.count(port.name) && !is_published_input(name, port.name))
         add(error("open-input", fmt::format("{} needs a link to its input \"{}\"", type.name, port.name))
                 .at_port(port.name)
                 .hinting(fmt::format("{}: {}", fmt::join(port.types, " or "), port.help)),
             node.place, name);
+  }
+
+  static std::string file_of(const Node& node) {
+    return in_quotes(fs::path(node.nested->path).filename().string());
+  }
+
+  // Of a Graph node whose file can't be used: it is a missing node, and the rest can still run.
+  void check_file_of_graph(const std::string& name, const Node& node) {
+    Diagnostic why = node.nested->why;
+    const auto stored = node.params.find("file");
+    const bool fatal = why.code == "graph-cycle" || why.code == "too-many-graphs";
+    if (!fatal && !(options_.check_files && node.enabled)) why.severity = Severity::warning;
+    why.param = "file";
+    add(std::move(why), stored == node.params.end() ? node.place : stored->second.place, name);
+  }
+
+  void check_list(const std::string& name, const InputPort& port, const Inputs& inputs) {
+    if (port.list && !inputs.list)
+      add(error("needs-list", fmt::format("{} takes several links", port.name))
+              .at_port(port.name)
+              .hinting("write them as a list: [\"node.port\"]"),
+          inputs.place, name);
+    if (!port.list && inputs.list)
+      add(error("one-link", fmt::format("{} takes one link", port.name))
+              .at_port(port.name)
+              .hinting("\"node.port\", not a list"),
+          inputs.place, name);
   }
 
   void check_link(const std::string& name, const InputPort& port, const Link& link) {
@@ -182,9 +225,9 @@ class Validator {
                      .at_port(port.name)
                      .hinting(suggestion(link.node, names_)),
                  link.place, name);
-    const NodeType* type = from->second.missing ? nullptr : registry_.find(from->second.type);
+    const NodeType* type = known_type(registry_, from->second);
     if (!type) return;
-    if (!type->find_output(link.port) && type->role != Role::graph)
+    if (!type->find_output(link.port) && !is_unopened(*type, from->second))
       return add(error("unknown-port", fmt::format("{} has no output \"{}\"", link.node, link.port))
                      .at_port(port.name)
                      .hinting(suggestion(link.port, type->output_names())),
@@ -271,7 +314,7 @@ class Validator {
           target.place);
       return nullptr;
     }
-    return node->second.missing ? nullptr : registry_.find(node->second.type);
+    return known_type(registry_, node->second);
   }
   void unknown_published(const char* code, const Link& target, const char* what,
                          const std::vector<std::string>& known, const std::string& where) {
@@ -297,7 +340,7 @@ class Validator {
       const Param* first = nullptr;
       for (const Link& target : targets) {
         const NodeType* type = published_type(target, where);
-        if (!type || type->role == Role::graph) continue;
+        if (!type || is_unopened(*type, document_.nodes.at(target.node))) continue;
         const Param* param = type->find_param(target.port);
         if (!param) {
           unknown_published("unknown-param", target, "parameter", type->param_names(), where);
@@ -317,7 +360,7 @@ class Validator {
       const InputPort* first = nullptr;
       for (const Link& target : targets) {
         const NodeType* type = published_type(target, where);
-        if (!type || type->role == Role::graph) continue;
+        if (!type || is_unopened(*type, document_.nodes.at(target.node))) continue;
         const InputPort* port = type->find_input(target.port);
         if (!port) {
           unknown_published("unknown-port", target, "input", type->input_names(), where);
@@ -341,7 +384,7 @@ class Validator {
       const std::string where = "publish.outputs." + name;
       for (const Link& target : targets) {
         const NodeType* type = published_type(target, where);
-        if (type && type->role != Role::graph && !type->find_output(target.port))
+        if (type && !is_unopened(*type, document_.nodes.at(target.node)) && !type->find_output(target.port))
           unknown_published("unknown-port", target, "output", type->output_names(), where);
       }
     }

@@ -17,11 +17,14 @@ struct ValidateOptions {
   bool check_files = true;  // missing input files are errors
   bool allow_outside = false;  // files may be written outside the folder
   std::map<std::string, Json> variables;  // given with --var: they come before the document's (see variables.h)
+  // Of the files that this one lies inside, outermost first: they come before its own.
+  std::vector<const std::map<std::string, Json, std::less<>>*> outer_variables;
 };
 // Every problem, in file order. Places point into the file where the document was read from one. A document that could
 // be read only in part is checked as far as it goes.
 // Codes: "unknown-node", "unknown-port", "type-mismatch", "open-input", "cycle", "index-out-of-range", "unknown-param",
-// "undefined-variable" and the others of substituted(), those of check(), "absolute-path" and "backslash-path"
+// "needs-list", "one-link", "missing-file", "broken-graph", "graph-cycle", "too-many-graphs" (of a Graph node's file; see
+// nested.h), "undefined-variable" and the others of substituted(), those of check(), "absolute-path" and "backslash-path"
 // (warnings), "leads-outside", "missing-file", "not-a-regular-file", "same-file".
 Diagnostics validate(const Document& document, const Registry& registry, const ValidateOptions& options);
 

@@ -126,7 +126,8 @@ int chosen(const Program& program, int argc, char** argv) {
     command.add_option("B", difference.b, "Another, or a later state of it")->type_name("");
     command.add_flag("--check", difference.check, "Exit 1 when they differ");
     auto as_json = command.add_flag("--json", difference.json, "As JSON");
-    command.add_flag("--textconv", difference.textconv, "A alone, one line for each thing it says, for git diff")
+    command
+        .add_flag("--textconv", difference.textconv, "A alone, one line for each thing it says, for git diff")
         ->excludes(as_json);
     command.callback([&] { act = [&] { return diff_command(program, difference); }; });
   }

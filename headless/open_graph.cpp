@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "graph/file/read.h"
+#include "graph/nested.h"
 #include "headless/session.h"
 
 namespace kinegraph {
@@ -73,6 +74,30 @@ Diagnostics all_problems(const Opened& opened, const Registry& registry, const V
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
   });
   return all;
+}
+
+void open_graphs_inside(Opened& opened, const Registry& registry,
+                        const std::map<std::string, Json>& variables,
+                        const std::vector<std::pair<std::string, std::string>>& sets, FileStore& files) {
+  const Document& document = opened.document;
+  NestedOptions options{.path = opened.path,
+                        .folder = opened.folder,
+                        .set_folder = fs::current_path().string(),
+                        .variables = variables};
+  for (const auto& [name, value] : sets) {
+    const auto published = document.publish.params.find(name);
+    auto targets = published == document.publish.params.end() ? std::vector<Link>() : published->second;
+    if (const auto link = link_from_text(name)) targets.push_back(*link);
+    for (const Link& target : targets) {
+      const auto node = document.nodes.find(target.node);
+      const NodeType* type = node == document.nodes.end() ? nullptr : registry.find(node->second.type);
+      if (!type || type->role != Role::graph || target.port != "file") continue;
+      options.files[target.node] = value;
+      files.allow(absolute_path(value));
+    }
+  }
+  options.read = [&](const std::string& path) { return *files.read(path); };
+  open_nested(opened.document, registry, options);
 }
 
 std::map<std::string, Json> parsed_variables(const std::vector<std::string>& vars) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <thread>
 
+#include "graph/nested.h"
 #include "graph/validate.h"
 
 namespace kinegraph {
@@ -60,6 +61,14 @@ Session::Session(const Program& program, const RunArguments& arguments, Opened o
     planning.sets.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
 
+  std::vector<std::string> roots;
+  if (arguments.sandbox) {
+    roots.push_back(opened_.folder);
+    for (const auto& folder : arguments.assets) roots.push_back(absolute_path(folder));
+  }
+  files_ = std::make_unique<FileStore>(roots);
+  open_graphs_inside(opened_, program.registry, variables, planning.sets, *files_);
+
   problems_ = all_problems(opened_, program.registry,
                            {.file = opened_.shown,
                             .folder = opened_.folder,
@@ -83,15 +92,9 @@ Session::Session(const Program& program, const RunArguments& arguments, Opened o
     }
   }
 
-  if (plan_.graph_files.empty() && !opened_.path.empty()) plan_.graph_files.push_back(opened_.path);
+  if (!opened_.path.empty()) plan_.graph_files.insert(plan_.graph_files.begin(), opened_.path);
   options_.outside_allowed = plan_.set_paths;
-
-  std::vector<std::string> roots;
-  if (arguments.sandbox) {
-    roots.push_back(opened_.folder);
-    for (const auto& folder : arguments.assets) roots.push_back(absolute_path(folder));
-  }
-  files_ = std::make_unique<FileStore>(roots, plan_.set_paths);
+  for (const auto& path : plan_.set_paths) files_->allow(path);
   memory_ = std::make_unique<MemoryCache>(static_cast<std::size_t>(options_.memory));
   std::string cache = arguments.cache;
   if (const char* usual = std::getenv("KINEGRAPH_CACHE"); cache.empty() && usual) cache = usual;
@@ -116,7 +119,7 @@ Target Session::target(const std::string& text) const {
   if (planned != plan_.by_name.end()) {
     type = plan_.nodes[static_cast<std::size_t>(planned->second)].type;
   } else if (written != document().nodes.end()) {
-    type = program_.registry.find(written->second.type);
+    type = known_type(program_.registry, written->second);
   } else if (!plan_.passed.contains(target.node)) {
     std::vector<std::string> names;
     for (const auto& [name, node] : document().nodes) names.push_back(name);
@@ -125,7 +128,7 @@ Target Session::target(const std::string& text) const {
         error("unknown-node", fmt::format("there is no node \"{}\" in {}", target.node, opened_.shown))
             .hinting(suggestion(target.node, names))));
   }
-  if (type && !target.port.empty() && type->role != Role::graph && !type->find_output(target.port)) {
+  if (type && !target.port.empty() && !type->find_output(target.port)) {
     auto names = type->output_names();
     throw UsageError(
         Diagnostic(error("unknown-port",

@@ -55,6 +55,10 @@ Opened open_graph(const std::string& argument, const Registry& registry, bool mi
 // Everything wrong with a graph: what reading found and what validating finds beyond it, each once, in file
 // order.
 Diagnostics all_problems(const Opened& opened, const Registry& registry, const ValidateOptions& options);
+// Opens the graphs inside it (see graph/nested.h). `sets` as --set has them, of which those that name a Graph node's file
+// count; `files` reads, and says what may be read.
+void open_graphs_inside(Opened& opened, const Registry& registry, const std::map<std::string, Json>& variables,
+                        const std::vector<std::pair<std::string, std::string>>& sets, FileStore& files);
 // "NAME=VALUE" of --var. Throws UsageError.
 std::map<std::string, Json> parsed_variables(const std::vector<std::string>& vars);
 // Whether a file is a graph and not a clip or an analysis: by its ending, or by its "format" member.

@@ -38,6 +38,8 @@ int validate_command(const Program& program, const ValidateArguments& arguments)
   int code = exit_code::done;
   for (const auto& graph : arguments.graphs) {
     Opened opened = open_graph(graph, program.registry);
+    FileStore files;
+    open_graphs_inside(opened, program.registry, variables, {}, files);
     Diagnostics problems = all_problems(
         opened, program.registry,
         {.file = graph, .folder = opened.folder, .check_files = !arguments.no_files, .variables = variables});

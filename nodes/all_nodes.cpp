@@ -81,6 +81,7 @@ Registry all_nodes() {
   registry.add(rubber_joints_node());
   registry.add(switch_node());
   registry.add(dot_node());
+  registry.add(graph_node());
   registry.add(blend_node());
   registry.add(concatenate_node());
   registry.add(filter_node());

@@ -76,9 +76,12 @@ class PlanRun {
       log_.missing = true;
       log_.nodes[planned(node).name].diagnostics.push_back(
           error("missing-node",
-                "its type '" + planned(node).type_name + "' is not known, or newer than this program")
+                planned(node).missing_because.empty()
+                    ? "its type '" + planned(node).type_name + "' is not known, or newer than this program"
+                    : planned(node).missing_because)
               .at_node(planned(node).name)
-              .hinting("`kinegraph nodes` lists the types there are"));
+              .hinting(planned(node).missing_because.empty() ? "`kinegraph nodes` lists the types there are"
+                                                             : "mend the graph file that it names"));
     }
     Schedule schedule(world_, plan_, keys_, demands_, rules_, halt_, options_, callbacks_,
                       log_.threads_allowed);

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "graph/nested.h"
+
 namespace kinegraph {
 
 namespace {
@@ -63,7 +65,7 @@ class Drawing {
  private:
   void draw(const std::string& name, const Node& node) {
     std::set<std::string> inputs = inputs_[name], outputs = outputs_[name];
-    const NodeType* type = node.missing ? nullptr : registry_.find(node.type);
+    const NodeType* type = known_type(registry_, node);
     if (type) {
       for (const InputPort& port : type->inputs) inputs.insert(port.name);
       for (const OutputPort& port : type->outputs) outputs.insert(port.name);

@@ -117,6 +117,7 @@ inline Registry registry() {
   registry.add(aged());
   registry.add(switch_node());
   registry.add(dot_node());
+  registry.add(graph_node());
   return registry;
 }
 
