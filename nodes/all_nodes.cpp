@@ -39,6 +39,8 @@ NodeType resample_node();
 NodeType trim_node();
 NodeType exaggerate_node();
 NodeType rubber_joints_node();
+NodeType pin_node();
+NodeType cartoon_filter_node();
 
 Registry all_nodes() {
   Registry registry;
@@ -79,6 +81,8 @@ Registry all_nodes() {
   registry.add(export_node());
   registry.add(exaggerate_node());
   registry.add(rubber_joints_node());
+  registry.add(pin_node());
+  registry.add(cartoon_filter_node());
   registry.add(switch_node());
   registry.add(dot_node());
   registry.add(graph_node());

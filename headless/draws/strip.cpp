@@ -10,6 +10,7 @@
 #include "headless/draws/skeleton_figure.h"
 #include "headless/draws/strip_layout.h"
 #include "headless/draws/theme.h"
+#include "nodes/motion/elementary.h"
 #include "nodes/motion/kinematics.h"
 
 namespace kinegraph {
@@ -104,6 +105,34 @@ void draw_contact_marks(Canvas& canvas, const Row& row, const StripLayout& layou
   }
 }
 
+// log2 of a link's length over its rest length: 1 = twice, -1 = half. 0 for the root and links that are
+// nothing at rest.
+double stretch_of(const Row& row, int joint, std::size_t frame) {
+  const Skeleton& skeleton = row.asked->motion->skeleton();
+  const int parent = skeleton.joints[static_cast<std::size_t>(joint)].parent;
+  if (parent < 0) return 0;
+  const double rest = skeleton.link_length(joint) * skeleton.above_scale;
+  const double length = norm(row.world.position(joint)[frame] - row.world.position(parent)[frame]);
+  if (rest < 0.005 * row.figure.height() || length < 1e-6 * rest) return 0;
+  return logarithm(length / rest) / logarithm(2);
+}
+
+bool stretches(const Motion& motion) {
+  for (int joint = 1; joint < motion.joints(); ++joint)
+    if (motion.translates(joint)) return true;
+  return false;
+}
+
+// The side's colour, going over to the stretched or squashed one by how much the link is.
+Color link_color(const Row& row, int joint, std::size_t frame) {
+  const Side side = row.figure.side(joint);
+  const Color base = side == Side::left ? theme::left : side == Side::right ? theme::right : theme::centre;
+  const double stretch = stretch_of(row, joint, frame);
+  const double part = std::min(1.0, std::max(0.0, (std::abs(stretch) - 0.03) / 0.97));
+  // The root of the part, so that a tenth of a length already shows.
+  return mixed(base, stretch > 0 ? theme::stretched : theme::squashed, std::sqrt(part));
+}
+
 void draw_row(Canvas& canvas, const Row& row, const StripLayout& layout, const Camera& camera,
               double floor_y) {
   const Motion& motion = *row.asked->motion;
@@ -133,8 +162,11 @@ void draw_row(Canvas& canvas, const Row& row, const StripLayout& layout, const C
   if (row.asked->contacts)
     for (std::size_t frame : layout.frames) draw_contact_marks(canvas, row, layout, camera, frame, floor_y);
   for (std::size_t frame : layout.frames)
-    row.figure.draw(canvas, camera, pose_of(row.world, frame), layout.followed[frame],
-                    {layout.across[frame], floor_y});
+    row.figure.draw(
+        canvas, camera, pose_of(row.world, frame), layout.followed[frame], {layout.across[frame], floor_y},
+        stretches(motion)
+            ? Figure::JointColor([&row, frame](int joint) { return link_color(row, joint, frame); })
+            : nullptr);
 
   double label_y = floor_y + row.below * camera.scale() + 20;
   for (std::size_t frame : layout.frames) {
@@ -225,7 +257,13 @@ Canvas draw_strips(const std::vector<StripRow>& asked, const StripOptions& optio
   Canvas canvas(options.width, 100);
   double y = theme::draw_title(
       canvas, options.title, options.subtitle.empty() ? facts_of(*rows[0].asked->motion) : options.subtitle);
-  double key = options.width - theme::margin - 150;
+  const bool stretched =
+      std::any_of(rows.begin(), rows.end(), [](const Row& row) { return stretches(*row.asked->motion); });
+  double key = options.width - theme::margin - (stretched ? 330 : 150);
+  if (stretched) {
+    key = theme::draw_key(canvas, {key, 40}, "stretched", theme::stretched);
+    key = theme::draw_key(canvas, {key, 40}, "squashed", theme::squashed);
+  }
   key = theme::draw_key(canvas, {key, 40}, "left", theme::left);
   theme::draw_key(canvas, {key, 40}, "right", theme::right);
 

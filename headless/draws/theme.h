@@ -19,6 +19,10 @@ inline const Color left = rgb(0x2b7bd3);
 inline const Color right = rgb(0xe2652f);
 inline const Color centre = rgb(0x76879a);
 
+// Of links that are longer and shorter than at rest; full at twice and half the length.
+inline const Color stretched = rgb(0xc2188f);
+inline const Color squashed = rgb(0x0b8f7d);
+
 inline const Color good = rgb(0x1d9a78);
 inline const Color bad = rgb(0xc8374f);
 

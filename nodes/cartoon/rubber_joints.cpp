@@ -134,8 +134,8 @@ class Turning {
   WorldMotion& places_;
 };
 
-std::shared_ptr<const Skeleton> sub_skeleton(const Skeleton& skeleton, const SubJoints& sub,
-                                             const WorldMotion& rest) {
+std::shared_ptr<const Skeleton> skeleton_at(const Skeleton& skeleton, const SubJoints& sub,
+                                            const WorldMotion& rest) {
   auto out = std::make_shared<Skeleton>();
   out->above = skeleton.above;
   out->above_offset = skeleton.above_offset;
@@ -183,6 +183,22 @@ std::shared_ptr<const SourceFacts> facts_without_layout(const SourceFacts& sourc
 
 }  // namespace
 
+SubSkeleton sub_skeleton(const Motion& motion, const SubJoints& sub, Work& work) {
+  const Skeleton& skeleton = motion.skeleton();
+  const Motion at_rest(motion.shared_skeleton(), motion.shared_source(), motion.fps(), 1,
+                       std::vector<bool>(skeleton.joints.size(), false));
+  const WorldMotion world = world_motion(at_rest, work);
+  WorldMotion places = driven_positions(sub, world, work);
+  Turning(skeleton, sub, links_below(motion), world, most_twist_at(motion.fps()), places).turn_all(work);
+  SubSkeleton out;
+  out.skeleton = skeleton_at(skeleton, sub, places);
+  for (int i = 0; i < places.joints(); ++i) {
+    out.rest.positions.push_back(std::as_const(places).position(i)[0]);
+    out.rest.orientations.push_back(std::as_const(places).orientation(i)[0]);
+  }
+  return out;
+}
+
 RubberResult rubber_joints(const Motion& motion, const RubberParams& params, const Contacts* contacts,
                            Work& work) {
   RubberResult result;
@@ -196,12 +212,7 @@ RubberResult rubber_joints(const Motion& motion, const RubberParams& params, con
   const std::vector<std::vector<int>> ends = links_below(motion);
   const double most_twist = most_twist_at(motion.fps());
 
-  const Motion at_rest(motion.shared_skeleton(), motion.shared_source(), motion.fps(), 1,
-                       std::vector<bool>(skeleton.joints.size(), false));
-  const WorldMotion rest_world = world_motion(at_rest, work);
-  WorldMotion rest = driven_positions(sub, rest_world, work);
-  Turning(skeleton, sub, ends, rest_world, most_twist, rest).turn_all(work);
-  const auto rubber = sub_skeleton(skeleton, sub, rest);
+  const std::shared_ptr<const Skeleton> rubber = sub_skeleton(motion, sub, work).skeleton;
 
   const WorldMotion world = world_motion(motion, work);
   WorldMotion places = driven_positions(sub, world, work);

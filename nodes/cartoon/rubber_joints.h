@@ -7,6 +7,7 @@
 #include "nodes/cartoon/mass_spring.h"
 #include "nodes/cartoon/sub_joints.h"
 #include "nodes/motion/contacts.h"
+#include "nodes/motion/kinematics.h"
 #include "nodes/motion/motion.h"
 
 namespace kinegraph {
@@ -22,6 +23,14 @@ struct RubberResult {
   Motion motion;  // on the sub-joint skeleton, whose rest pose is the input's put through the same curves
   SubJoints sub_joints;
 };
+
+// The skeleton of sub-joints. Its rest pose is that of the motion's skeleton put through the same curves and
+// Slerps. Sub-joints are named NAME_2, NAME_3, … after their joint.
+struct SubSkeleton {
+  std::shared_ptr<const Skeleton> skeleton;
+  Pose rest;
+};
+SubSkeleton sub_skeleton(const Motion& motion, const SubJoints& sub, Work& work);
 
 // Sub-joints of groups lie on the curve through the group's joints, the others on their straight links; then
 // they swing on springs. World orientation of J′_{k,1}: the smallest turn of the input's that aims joint k's

@@ -1,6 +1,10 @@
+#include <optional>
+#include <utility>
+
 #include "graph/compute.h"
 #include "graph/node_type.h"
 #include "nodes/cartoon/rubber_joints.h"
+#include "nodes/cartoon/rubber_skin.h"
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/motion/joint_pattern.h"
 
@@ -51,9 +55,12 @@ NodeType rubber_joints_node() {
   type.source = "Kwon & Lee, Exaggerating Character Motions Using Sub-Joint Hierarchy, §5";
   type.keywords = {"cartoon", "rubber", "hose", "follow", "overlap", "spring", "jiggle", "Kwon"};
   type.input("motion", {"Motion"}, "the motion whose limbs become rubber");
+  type.optional_input("character", {"Character"}, "a skinned mesh that gets the same sub-joints");
   type.optional_input("contacts", {"Contacts"},
                       "planted points, which don't swing; open: found as DetectContacts does");
   type.output("motion", "Motion", "the motion on the sub-joint skeleton", "motion");
+  type.output("character", "Character",
+              "the mesh on the sub-joint skeleton, its weights shared out; with a character in", "character");
   type.param("sub_joints", table(integer(1).between(1, 100)),
              "joint pattern to number of sub-joints of its link; by length where nothing is said");
   type.param("groups",
@@ -90,7 +97,13 @@ NodeType rubber_joints_node() {
       throw Failure(error("frames-differ", "the contacts have another number of frames than the motion")
                         .at_port("contacts")
                         .hinting("find them in this motion, or in one of the same length"));
-    compute.output("motion", rubber_joints(*motion, settings, contacts, work).motion);
+    RubberResult rubber = rubber_joints(*motion, settings, contacts, work);
+    if (const auto* character = compute.optional_input<Character>("character")) {
+      if (compute.wanted("character"))
+        compute.output("character",
+                       rubber_character(*character, *motion, rubber.sub_joints, settings.sub_joints, work));
+    }
+    compute.output("motion", std::move(rubber.motion));
   };
   return type;
 }

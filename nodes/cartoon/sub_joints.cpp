@@ -52,6 +52,11 @@ std::vector<int> counts_of(const Motion& motion, const SubJointParams& params, c
   for (const auto& [pattern, count] : params.counts) patterns.push_back(pattern);
   const std::vector<int> chosen = most_specific(patterns, skeleton, "sub_joints", work);
   std::vector<int> counts(skeleton.joints.size(), 1);
+  if (!params.of_each.empty()) {
+    for (int j = 0; j < skeleton.size(); ++j)
+      if (only[j] >= 0) counts[j] = params.of_each[j];
+    return counts;
+  }
   for (int j = 0; j < skeleton.size(); ++j) {
     if (chosen[j] >= 0) {
       const auto& [pattern, count] = params.counts[chosen[j]];

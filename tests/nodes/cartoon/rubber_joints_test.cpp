@@ -84,10 +84,11 @@ TEST(RubberJoints, WithBlendZeroAreTheCurveExactly) {
 
 TEST(RubberJoints, KeepAStillClipStill) {
   Alone work;
-  Motion still = gait("walk", 1).empty_like(80);
+  const Motion walk = gait("walk", 1);
+  Motion still = walk.empty_like(80);
   for (int j = 0; j < still.joints(); ++j)
     for (std::size_t t = 0; t < 80; ++t) {
-      still.rotation(j).set(t, gait("walk", 1).rotation(j)[20]);
+      still.rotation(j).set(t, walk.rotation(j)[20]);
       if (still.translates(j)) still.translation(j).set(t, {0.2, 1, 0.4});
     }
   const Motion swinging = rubber_joints(still, {}, nullptr, work).motion;

@@ -1,0 +1,33 @@
+// Makes ends of chains pass exactly through given points by bending the chain's curve [Kwon §6, Fig. 10;
+// Nealen et al., FiberMesh, 2007].
+#pragma once
+#include <string>
+#include <vector>
+
+#include "graph/work.h"
+#include "nodes/motion/contacts.h"
+#include "nodes/motion/motion.h"
+
+namespace kinegraph {
+
+struct PinnedJoint {
+  std::string joint;
+  std::size_t start = 0, end = 0;  // frames, half-open
+  Vec3 position;                   // world, m
+};
+
+struct PinParams {
+  std::vector<PinnedJoint> pins;
+  double fade = 0.3;  // seconds before and after each pin in which it takes hold and lets go (C²)
+};
+
+// In its frames a pinned joint stands at its point; in the fades it goes there by a part of the way, f
+// (target − p). The chain above it, up to where it branches off, follows by the displacement of least bending
+// along its length that leaves the first joint's place and the chain's direction there (a cubic spline,
+// clamped above and free at the pin); several joints of a chain may be pinned at once. The pinned joint keeps
+// its orientation, what lies below rides with it; links change length. `contacts`, where given: each planted
+// point stays at its mean place over the plant. Throws Failure at `pins[i]` ("unknown-joint", "no-chain",
+// "pins-overlap", "bad-range").
+Motion pin(const Motion& motion, const PinParams& params, const Contacts* contacts, Work& work);
+
+}  // namespace kinegraph

@@ -1,0 +1,170 @@
+#include "nodes/cartoon/pin.h"
+
+#include <gmock/gmock.h>
+
+#include "graph/diagnostic.h"
+#include "nodes/cartoon/exaggerate.h"
+#include "nodes/cartoon/rubber_joints.h"
+#include "nodes/feet/detect_contacts.h"
+#include "nodes/motion/kinematics.h"
+#include "tests/nodes/run_node.h"
+#include "tests/nodes/time/walks.h"
+
+namespace kinegraph {
+
+NodeType pin_node();
+
+namespace {
+
+Motion still_pose(std::size_t frames, double fps) {
+  const Motion walk = gait("walk", 1, fps);
+  Motion still = walk.empty_like(frames);
+  for (int j = 0; j < still.joints(); ++j)
+    for (std::size_t t = 0; t < frames; ++t) {
+      still.rotation(j).set(t, walk.rotation(j)[10]);
+      if (still.translates(j)) still.translation(j).set(t, walk.translation(j)[10]);
+    }
+  return still;
+}
+
+TEST(Pin, MeetsItsPointAtEveryPinnedFrameAlsoOnRubber) {
+  Alone work;
+  const Motion run = gait("run", 3);
+  const Motion rubber = rubber_joints(exaggerate(run, {}, work).motion, {}, nullptr, work).motion;
+  for (const Motion* motion : {&run, &rubber}) {
+    const int hand = motion->skeleton().find("RightHand"),
+              shoulder = motion->skeleton().find("RightShoulder");
+    const WorldMotion before = world_motion(*motion);
+    const Vec3 goal = before.position(hand)[80] + Vec3{0.1, 0.15, 0.1};
+    PinParams params;
+    params.pins = {{"RightHand", 70, 90, goal}};
+    params.fade = 0.4;
+    const Motion out = pin(*motion, params, nullptr, work);
+    const WorldMotion after = world_motion(out);
+    for (std::size_t t = 0; t < out.frames(); ++t) {
+      if (t >= 70 && t < 90) {
+        EXPECT_LT(norm(after.position(hand)[t] - goal), 1e-9);
+      }
+      EXPECT_LT(norm(after.position(shoulder)[t] - before.position(shoulder)[t]), 1e-9);
+      if (t < 40 || t > 120) {
+        EXPECT_LT(norm(after.position(hand)[t] - before.position(hand)[t]), 1e-9);
+      }
+    }
+    // The hand keeps its orientation, and the fingers ride on it.
+    EXPECT_LT(turn(after.orientation(hand)[80], before.orientation(hand)[80]), 1e-7);
+    const int finger = motion->skeleton().find("RightHandIndex1");
+    EXPECT_LT(norm((after.position(finger)[80] - after.position(hand)[80]) -
+                   (before.position(finger)[80] - before.position(hand)[80])),
+              1e-9);
+  }
+}
+
+TEST(Pin, KeepsTheChainsDirectionAtItsFirstJoint) {
+  Alone work;
+  const Motion rubber = rubber_joints(still_pose(60, 60), {}, nullptr, work).motion;
+  const WorldMotion before = world_motion(rubber);
+  const int leg = rubber.skeleton().find("LeftUpLeg"), second = rubber.skeleton().find("LeftUpLeg_2");
+  const int foot = rubber.skeleton().find("LeftFoot");
+  PinParams params;
+  params.pins = {{"LeftFoot", 20, 40, before.position(foot)[30] + Vec3{0.2, 0.1, 0}}};
+  const WorldMotion after = world_motion(pin(rubber, params, nullptr, work));
+  const Vec3 a = before.position(second)[30] - before.position(leg)[30];
+  const Vec3 b = after.position(second)[30] - after.position(leg)[30];
+  EXPECT_LT(turn(smallest_turn(a, b)) * degrees_per_radian, 5);
+}
+
+TEST(Pin, AddsLittleAcceleration) {
+  Alone work;
+  const double fps = 240;
+  const Motion still = still_pose(480, fps);
+  const int hand = still.skeleton().find("LeftHand");
+  for (double d : {0.05, 0.2}) {
+    for (double t : {0.25, 0.5}) {
+      PinParams params;
+      params.fade = t;
+      params.pins = {{"LeftHand", 200, 260, world_motion(still).position(hand)[0] + Vec3{0, d, 0}}};
+      const WorldMotion after = world_motion(pin(still, params, nullptr, work));
+      double worst = 0;
+      for (std::size_t f = 1; f + 1 < still.frames(); ++f)
+        worst = std::max(worst, norm(after.position(hand)[f + 1] - 2 * after.position(hand)[f] +
+                                     after.position(hand)[f - 1]) *
+                                    fps * fps);
+      EXPECT_LT(worst, 8 * d / (t * t));
+      EXPECT_GT(worst, 2 * d / (t * t));
+    }
+  }
+}
+
+TEST(Pin, HoldsSeveralJointsOfAChainAndSeveralTimes) {
+  Alone work;
+  const Motion walk = gait("walk", 4);
+  const int hand = walk.skeleton().find("LeftHand"), elbow = walk.skeleton().find("LeftForeArm");
+  const WorldMotion before = world_motion(walk);
+  const Vec3 a = before.position(hand)[60] + Vec3{0, 0.1, 0},
+             b = before.position(elbow)[65] + Vec3{0.05, 0, 0};
+  const Vec3 c = before.position(hand)[84] + Vec3{0, 0.2, 0};
+  PinParams params;
+  params.pins = {{"LeftHand", 55, 70, a}, {"LeftForeArm", 62, 75, b}, {"LeftHand", 78, 90, c}};
+  const WorldMotion after = world_motion(pin(walk, params, nullptr, work));
+  for (std::size_t t = 55; t < 90; ++t) {
+    if (t < 70) {
+      EXPECT_LT(norm(after.position(hand)[t] - a), 1e-9) << t;
+    }
+    if (t >= 62 && t < 75) {
+      EXPECT_LT(norm(after.position(elbow)[t] - b), 1e-9) << t;
+    }
+    if (t >= 78) {
+      EXPECT_LT(norm(after.position(hand)[t] - c), 1e-9) << t;
+    }
+  }
+}
+
+TEST(Pin, HoldsPlantedFeetThatExaggerationMoved) {
+  Alone work;
+  const Motion walk = gait("walk", 3);
+  const Contacts contacts = detect_contacts(walk, {}, work);
+  const Motion wild = exaggerate(walk, {}, work).motion;
+  const WorldMotion slid = world_motion(wild), held = world_motion(pin(wild, {{}, 0.15}, &contacts, work));
+  double before = 0, after = 0;
+  for (const FootPoint& point : contacts.points)
+    for (std::size_t t = 1; t < walk.frames(); ++t)
+      if (point.planted[t] && point.planted[t - 1]) {
+        before = std::max(before, norm(point_at(slid, point.joint, point.local, t) -
+                                       point_at(slid, point.joint, point.local, t - 1)));
+        after = std::max(after, norm(point_at(held, point.joint, point.local, t) -
+                                     point_at(held, point.joint, point.local, t - 1)));
+      }
+  EXPECT_GT(before, 0.005);
+  EXPECT_LT(after, 1e-9);
+}
+
+TEST(Pin, ChangesNothingWithoutPins) {
+  Alone work;
+  const Motion walk = gait("walk", 1);
+  EXPECT_LT(difference(pin(walk, {}, nullptr, work), walk).turn, 1e-15);
+}
+
+TEST(PinNode, NamesWhatIsWrongWithAPin) {
+  const Motion walk = gait("walk", 1);
+  const auto refusal = [&](std::string joint, double start, double end) {
+    const Json position(Json::Array{Json(0), Json(1), Json(0)});
+    Json::Object entry{
+        {"joint", Json(joint)}, {"range", Json(Json::Array{Json(start), Json(end)})}, {"position", position}};
+    Json::Array pins{Json(entry)};
+    if (joint == "twice") {
+      pins[0] = Json(Json::Object{{"joint", Json("LeftHand")},
+                                  {"range", Json(Json::Array{Json(start), Json(end)})},
+                                  {"position", position}});
+      pins.push_back(pins[0]);
+    }
+    const Diagnostic d = NodeInMemory(pin_node()).link("motion", walk).set("pins", Json(pins)).refusal();
+    return d.code + " " + d.param;
+  };
+  EXPECT_EQ(refusal("LeftHond", 10, 20), "unknown-joint pins[0]");
+  EXPECT_EQ(refusal("LeftHand", 10, 2000), "bad-range pins[0]");
+  EXPECT_EQ(refusal("Hips", 10, 20), "no-chain pins[0]");
+  EXPECT_EQ(refusal("twice", 10, 20), "pins-overlap pins[1]");
+}
+
+}  // namespace
+}  // namespace kinegraph

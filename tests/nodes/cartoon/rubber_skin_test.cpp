@@ -1,0 +1,169 @@
+#include "nodes/cartoon/rubber_skin.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <map>
+
+#include "nodes/cartoon/rubber_joints.h"
+#include "tests/nodes/cartoon/cartoon_clips.h"
+#include "tests/nodes/run_node.h"
+#include "tests/nodes/time/walks.h"
+
+namespace kinegraph {
+
+NodeType rubber_joints_node();
+
+namespace {
+
+// A cloud of vertices about Gait's skeleton, each bound to two to four joints.
+Character cloud(const Motion& walk) {
+  Character character;
+  character.skeleton = walk.shared_skeleton();
+  const Pose rest = rest_pose_of(*character.skeleton);
+  Skin skin;
+  for (int j = 0; j < walk.joints(); ++j) {
+    skin.joints.push_back(j);
+    skin.inverse_bind.push_back(inverse(affine(rest.positions[j], rest.orientations[j])));
+  }
+  character.skins = {skin};
+  MeshPart part;
+  part.skin = 0;
+  part.influences = 4;
+  for (int j = 1; j < walk.joints(); ++j) {
+    const int p = walk.skeleton().joints[j].parent;
+    for (int i = 0; i < 10; ++i) {
+      const double f = i / 10.0;
+      const Vec3 at =
+          (1 - f) * rest.positions[p] + f * rest.positions[j] + Vec3{0.03, 0.01, 0.05 * (i % 3 - 1)};
+      for (int axis = 0; axis < 3; ++axis) part.positions.push_back(static_cast<float>(at[axis]));
+      const std::uint32_t joints[4] = {static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(j), 0, 9};
+      const float weights[4] = {0.5f, 0.3f, i % 2 ? 0.2f : 0.15f, i % 2 ? 0.0f : 0.05f};
+      part.joints.insert(part.joints.end(), joints, joints + 4);
+      part.weights.insert(part.weights.end(), weights, weights + 4);
+    }
+  }
+  character.parts = {part};
+  return character;
+}
+
+std::map<int, double> sums(const Character& character, const MeshPart& part, std::size_t vertex,
+                           const std::function<int(int)>& joint_of) {
+  std::map<int, double> sum;
+  for (int i = 0; i < part.influences; ++i) {
+    const std::size_t entry =
+        vertex * static_cast<std::size_t>(part.influences) + static_cast<std::size_t>(i);
+    if (part.weights[entry] != 0)
+      sum[joint_of(character.skins[part.skin].joints[part.joints[entry]])] += part.weights[entry];
+  }
+  return sum;
+}
+
+void expect_rebound_well(const Character& before, const Character& after) {
+  const Pose old_rest = rest_pose_of(*before.skeleton), rest = rest_pose_of(*after.skeleton);
+  const double height = rest_height(*before.skeleton);
+  ASSERT_EQ(before.parts.size(), after.parts.size());
+  double moved = 0, differs = 0;
+  for (std::size_t p = 0; p < before.parts.size(); ++p) {
+    const auto a = posed_vertices(before, before.parts[p], old_rest),
+               b = posed_vertices(after, after.parts[p], rest);
+    ASSERT_EQ(a.size(), b.size());
+    EXPECT_LE(after.parts[p].influences, most_influences);
+    for (std::size_t v = 0; v < a.size(); ++v) {
+      moved = std::max(moved, norm(a[v] - b[v]));
+      if (before.parts[p].skin < 0) continue;
+      // Sub-joint NAME_3 stands for joint NAME: by the names' beginnings, parents' lists being in the same
+      // order.
+      const auto old_sums = sums(before, before.parts[p], v, [](int j) { return j; });
+      const auto new_sums = sums(after, after.parts[p], v, [&](int j) {
+        std::string name = after.skeleton->joints[j].name;
+        int k = before.skeleton->find(name);
+        while (k < 0 && name.find('_') != std::string::npos)
+          k = before.skeleton->find(name = name.substr(0, name.rfind('_')));
+        return k;
+      });
+      for (const auto& [joint, weight] : old_sums) {
+        const auto found = new_sums.find(joint);
+        differs = std::max(differs, std::abs(weight - (found == new_sums.end() ? 0 : found->second)));
+      }
+    }
+  }
+  EXPECT_LT(moved, 1e-5 * height);
+  EXPECT_LT(differs, 1e-6);
+}
+
+TEST(RubberSkin, KeepsWeightsInSumAndVerticesAtRest) {
+  Alone work;
+  const Motion walk = gait("walk", 1);
+  const Character before = cloud(walk);
+  const RubberResult rubber = rubber_joints(walk, {}, nullptr, work);
+  const Character after = rubber_character(before, walk, rubber.sub_joints, {}, work);
+  EXPECT_EQ(after.skeleton->joints.size(), 58u);
+  EXPECT_TRUE(after.rebound);
+  expect_rebound_well(before, after);
+}
+
+TEST(RubberSkin, GivesMoreToNearerSubJoints) {
+  Alone work;
+  const Motion walk = gait("walk", 1);
+  Character before = cloud(walk);
+  // One vertex at a third of the thigh, bound to it alone.
+  const Pose rest = rest_pose_of(*before.skeleton);
+  const int thigh = walk.skeleton().find("LeftUpLeg"), knee = walk.skeleton().find("LeftLeg");
+  const Vec3 at =
+      rest.positions[thigh] + (1.5 / 6) * (rest.positions[knee] - rest.positions[thigh]) + Vec3{0.05, 0, 0};
+  MeshPart part;
+  part.skin = 0;
+  part.influences = 1;
+  part.positions = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
+  part.joints = {static_cast<std::uint32_t>(thigh)};
+  part.weights = {1};
+  before.parts = {part};
+  RubberParams params;
+  params.sub_joints.groups = {{"LeftUpLeg", "LeftLeg"}};  // so that the thigh is straight at rest
+  const RubberResult rubber = rubber_joints(walk, params, nullptr, work);
+  const Character after = rubber_character(before, walk, rubber.sub_joints, params.sub_joints, work);
+  ASSERT_EQ(after.parts[0].influences, 6);
+  // The formula by hand: distances to six segments of 7 cm, the second the nearest.
+  double total = 0, inverse_distance[6];
+  for (int l = 0; l < 6; ++l) {
+    const double a = 0.07 * l, b = 0.07 * (l + 1), y = 0.105;
+    const double along = std::max({0.0, a - y, y - b});
+    inverse_distance[l] = 1 / std::sqrt(along * along + 0.05 * 0.05);
+    total += inverse_distance[l];
+  }
+  for (int i = 0; i < 6; ++i) {
+    const int l = after.skins[0].joints[after.parts[0].joints[i]] - rubber.sub_joints.first[thigh];
+    EXPECT_NEAR(after.parts[0].weights[i], inverse_distance[l] / total, 1e-5) << l;
+  }
+}
+
+TEST(RubberSkin, HoldsOnRealCharacters) {
+  KINEGRAPH_NEEDS_MOCAP();
+  for (const char* file :
+       {"gltf/CesiumMan.glb", "gltf/KayKit_Knight.glb", "gltf/rig_transfer_from_bvh.glb"}) {
+    Alone work;
+    PlainFiles files;
+    const MotionFile loaded = read_motion_file(mocap(file), {}, files, work);
+    const auto* character = dynamic_cast<const Character*>(loaded.find("character"));
+    ASSERT_TRUE(character) << file;
+    const Motion motion = loaded.motion()
+                              ? *loaded.motion()
+                              : Motion(character->skeleton, std::make_shared<SourceFacts>(), 30, 1,
+                                       std::vector<bool>(character->skeleton->joints.size(), false));
+    const RubberResult rubber = rubber_joints(motion, {}, nullptr, work);
+    const Character after = rubber_character(*character, motion, rubber.sub_joints, {}, work);
+    expect_rebound_well(*character, after);
+    EXPECT_NO_THROW(pose_for(after, rubber.motion, 0));
+  }
+}
+
+TEST(RubberJointsNode, PassesACharacterThrough) {
+  const Motion walk = gait("walk", 1);
+  NodeInMemory node(rubber_joints_node());
+  node.link("motion", walk).link("character", cloud(walk)).run();
+  EXPECT_EQ(node.out<Character>("character").skeleton->joints.size(), 58u);
+}
+
+}  // namespace
+}  // namespace kinegraph
