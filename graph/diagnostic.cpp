@@ -136,9 +136,11 @@ std::string nearest(std::string_view name, const std::vector<std::string>& candi
   return best;
 }
 
-std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
-  if (const std::string near = nearest(name, candidates); !near.empty())
-    return "did you mean \"" + near + "\"?";
+std::string suggestion(std::string_view name, const std::vector<std::string>& all) {
+  if (const std::string near = nearest(name, all); !near.empty()) return "did you mean \"" + near + "\"?";
+  std::vector<std::string> candidates;  // each once, in the order given
+  for (const auto& one : all)
+    if (std::find(candidates.begin(), candidates.end(), one) == candidates.end()) candidates.push_back(one);
   if (candidates.empty()) return "there is none";
   constexpr std::size_t shown = 12;
   std::string text = "there is ";

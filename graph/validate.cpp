@@ -86,6 +86,16 @@ class Validator {
       }
       if (value) check_paths(name, node, *param, *value, key);
     }
+    // A type that begins with a path is about that file.
+    if (!options_.check_files || !node.enabled || type.params.empty()) return;
+    const Param& subject = type.params.front();
+    if (subject.kind != Kind::open_file && subject.kind != Kind::save_file) return;
+    const auto stored = node.params.find(subject.name);
+    const bool named =
+        stored != node.params.end() && !(stored->second.is_string() && stored->second.string().empty());
+    if (!named && !is_published_param(name, subject.name))
+      add(error("no-file", "no file is named").at_param(subject.name).hinting("set " + subject.name),
+          stored == node.params.end() ? node.place : stored->second.place, name);
   }
 
   void check_paths(const std::string& name, const Node& node, const ParamType& type, const Json& value,
@@ -189,6 +199,14 @@ class Validator {
                 .at_port(port.name)
                 .hinting(fmt::format("{}: {}", fmt::join(port.types, " or "), port.help)),
             node.place, name);
+    const bool linked = std::any_of(type.inputs.begin(), type.inputs.end(), [&](const InputPort& port) {
+      return node.inputs.count(port.name) || is_published_input(name, port.name);
+    });
+    if (type.effect == Effect::writes && !type.inputs.empty() && !linked)
+      add(error("open-input", fmt::format("no input of this {} is linked", type.name))
+              .hinting(fmt::format("link what is to be written to one of {}",
+                                   fmt::join(type.input_names(), ", "))),
+          node.place, name);
   }
 
   static std::string file_of(const Node& node) {
@@ -248,12 +266,17 @@ class Validator {
     return fmt::format("link {}", fmt::join(port.types, " or "));
   }
 
+  static bool is_published(const std::map<std::string, std::vector<Link>, std::less<>>& published,
+                           const Link& part) {
+    return std::any_of(published.begin(), published.end(), [&](const auto& entry) {
+      return std::find(entry.second.begin(), entry.second.end(), part) != entry.second.end();
+    });
+  }
   bool is_published_input(const std::string& node, const std::string& port) const {
-    return std::any_of(
-        document_.publish.inputs.begin(), document_.publish.inputs.end(), [&](const auto& published) {
-          return std::find(published.second.begin(), published.second.end(), Link{node, port, {}}) !=
-                 published.second.end();
-        });
+    return is_published(document_.publish.inputs, {node, port, {}});
+  }
+  bool is_published_param(const std::string& node, const std::string& param) const {
+    return is_published(document_.publish.params, {node, param, {}});
   }
 
   // A Switch: its index, and that its links are of one type.

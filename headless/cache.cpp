@@ -25,7 +25,7 @@ std::string folder_of(const CacheArguments& arguments) {
 
 std::string told(const DiskCache::Stat& stat) {
   return fmt::format(
-      "{} entries, {}{}{}", stat.entries, size_text(stat.bytes),
+      "{} {}, {}{}{}", stat.entries, stat.entries == 1 ? "entry" : "entries", size_text(stat.bytes),
       stat.damaged ? fmt::format(", {} damaged", stat.damaged) : "",
       stat.leftovers ? fmt::format(", {} left by killed writers or being written", stat.leftovers) : "");
 }

@@ -37,7 +37,7 @@ int explain_command(const Program& program, const RunArguments& arguments, const
       std::string parts;
       for (const auto& part : told.parts)
         parts += fmt::format("  {:<{}}  {}\n", part.what, width, part.value);
-      terminal.result(parts == last_parts ? "  made of the same parts\n" : parts);
+      terminal.result(!parts.empty() && parts == last_parts ? "  made of the same parts\n" : parts);
       last_parts = parts;
     } catch (const Failure& failure) {
       Diagnostic said = failure.diagnostic();

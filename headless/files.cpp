@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "headless/commands.h"
 #include "headless/exit_code.h"
@@ -12,12 +14,14 @@ int files_command(const Program& program, const RunArguments& arguments, bool js
   program.terminal.say(session.problems());
   if (!session.valid()) return exit_code::invalid;
 
-  // Relative to the graph's folder, as the graph itself writes them; absolute where that would climb out.
+  // Relative to the graph's folder, as the graph itself writes them; absolute where only the root is common.
+  const std::filesystem::path folder = session.opened().folder;
   auto shown = [&](const std::string& path) {
-    auto relative =
-        std::filesystem::path(path).lexically_normal().lexically_relative(session.opened().folder);
-    auto text = relative.generic_string();
-    return text.empty() || text.starts_with("..") ? path : text;
+    auto normal = std::filesystem::path(path).lexically_normal();
+    auto relative = normal.lexically_relative(folder);
+    auto climbs = std::count(relative.begin(), relative.end(), std::filesystem::path(".."));
+    auto depth = std::distance(folder.begin(), folder.end()) - 1;  // without the root itself
+    return (relative.empty() || climbs >= depth ? normal : relative).generic_string();
   };
   auto reads = session.files_read(), writes = session.files_written();
   std::vector<std::string> nested;

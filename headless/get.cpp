@@ -36,6 +36,7 @@ int get_command(const Program& program, const RunArguments& arguments, const std
           throw UsageError(error(
               "absent-output", fmt::format("{} gives nothing: what it passes on is open or disabled", port)));
         auto value_type = session.type_of(wanted);
+        if (value_type.empty()) return std::vector<Target>{wanted};  // a missing node: running it says so
         auto input = type ? port_for(*type, value_type) : std::string();
         if (input.empty())
           throw UsageError(error(
@@ -56,8 +57,8 @@ int get_command(const Program& program, const RunArguments& arguments, const std
         plan.nodes.push_back(std::move(node));
         return std::vector<Target>{{plan.nodes.back().name, ""}};
       },
-      [&](Session&, const RunLog& log) {
-        for (const auto& written : log.files)
+      [&](Session&, const Outcome& outcome) {
+        for (const auto& written : outcome.log.files)
           program.terminal.message(fmt::format("wrote {} ({})\n", file, size_text(written.bytes)));
         return exit_code::done;
       });

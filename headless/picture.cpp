@@ -138,7 +138,7 @@ int picture_command(const Program& program, const PictureArguments& arguments) {
         }
         return targets;
       },
-      [&](Session& session, const RunLog&) {
+      [&](Session& session, const Outcome&) {
         if (arguments.run.dry_run) return exit_code::done;
         std::vector<Drawn> all;
         for (std::size_t i = 0; i < targets.size(); ++i) {

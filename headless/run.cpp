@@ -5,7 +5,7 @@
 
 #include "headless/commands.h"
 #include "headless/exit_code.h"
-#include "headless/interruption.h"
+#include "headless/metrics_table.h"
 #include "headless/run_outcome.h"
 
 namespace kinegraph {
@@ -31,15 +31,21 @@ void tell_dry_run(const Terminal& terminal, const Session& session, const RunLog
   for (const auto& path : log.planned_files) terminal.result(fmt::format("write  {}\n", shown_path(path)));
 }
 
-void tell_results(const Terminal& terminal, const RunLog& log) {
+void tell_results(const Terminal& terminal, const Plan& plan, const Outcome& outcome) {
+  const RunLog& log = outcome.log;
+  auto columns = metrics_columns(plan, outcome);
+  std::vector<std::shared_ptr<const Metrics>> values;
+  for (const auto& column : columns) values.push_back(outcome.metrics.at(column));
+  if (!columns.empty()) terminal.result(metrics_table(terminal, columns, values) + "\n");
   for (const auto& rule : log.rules) {
     auto number = [](double value) {
-      return std::isfinite(value) ? fmt::format("{:.6g}", value) : "not measured";
+      return std::isfinite(value) ? fmt::format("{:.6g}", value) : "unknown";
     };
+    auto measured = std::isfinite(rule.value) ? "measured " + number(rule.value) : "not measured";
     terminal.result(
-        fmt::format("{}  {}: {}   measured {}, limit {}\n",
+        fmt::format("{}  {}: {}   {}, limit {}\n",
                     terminal.tinted(rule.passed ? "passed" : "failed", rule.passed ? Tint::green : Tint::red),
-                    rule.node, rule.rule, number(rule.value), number(rule.limit)));
+                    rule.node, rule.rule, measured, number(rule.limit)));
   }
   for (const auto& file : log.files)
     terminal.result(fmt::format("{}   {}  {}\n", terminal.tinted("wrote", Tint::green), shown_path(file.path),
@@ -62,11 +68,11 @@ int run_command(const Program& program, const RunArguments& arguments) {
                   .hinting("name what to compute with --target NODE.PORT")));
         return targets;
       },
-      [&](Session& session, const RunLog& log) {
+      [&](Session& session, const Outcome& outcome) {
         if (arguments.dry_run)
-          tell_dry_run(program.terminal, session, log);
+          tell_dry_run(program.terminal, session, outcome.log);
         else
-          tell_results(program.terminal, log);
+          tell_results(program.terminal, session.plan(), outcome);
         return exit_code::done;
       });
 }

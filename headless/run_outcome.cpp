@@ -4,24 +4,11 @@
 
 #include "headless/exit_code.h"
 #include "headless/interruption.h"
+#include "headless/messages.h"
 
 namespace kinegraph {
 
 namespace {
-
-// Warnings and errors in the order of the nodes; what is of no node comes last.
-void say_log(const Terminal& terminal, const RunLog& log, const std::string& graph) {
-  for (const auto& [name, node] : log.nodes)
-    for (auto diagnostic : node.diagnostics) {
-      if (diagnostic.node.empty()) diagnostic.node = name;
-      terminal.say(diagnostic);
-    }
-  for (auto diagnostic : log.diagnostics) {
-    if (diagnostic.file.empty() && diagnostic.severity == Severity::error) diagnostic.file = graph;
-    terminal.say(diagnostic);
-  }
-  if (log.timed_out) terminal.message("kinegraph: timed out\n");
-}
 
 Progress::Form form_of(const RunArguments& arguments, const Terminal& terminal) {
   try {
@@ -35,7 +22,7 @@ Progress::Form form_of(const RunArguments& arguments, const Terminal& terminal) 
 
 int run_to_outcome(const Program& program, const RunArguments& arguments, Opened opened,
                    const std::function<std::vector<Target>(Session&)>& targets,
-                   const std::function<int(Session&, const RunLog&)>& after) {
+                   const std::function<int(Session&, const Outcome&)>& after) {
   using exit_code::graver;
   Interruption interruption;
   Progress progress(form_of(arguments, program.terminal), program.terminal);
@@ -49,13 +36,15 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
     auto wanted = targets(session);
     try {
       outcome.log = session.run(wanted, progress, interruption.token());
-      say_log(program.terminal, outcome.log, session.opened().shown);
       outcome.exit = exit_of(outcome.log, arguments.dry_run);
       if (!arguments.dry_run)
         for (const auto& target : session.needed_by(wanted).metrics)
           if (auto value = session.evaluator().value(session.plan(), target.node, target.port))
             outcome.metrics[target.node] = std::dynamic_pointer_cast<const Metrics>(value);
-      outcome.exit = graver(outcome.exit, after(session, outcome.log));
+      int after_it = after(session, outcome);
+      program.terminal.results_written();  // results stand before messages where both go to one terminal
+      say_log(program.terminal, outcome.log, session.opened().shown);
+      outcome.exit = graver(outcome.exit, after_it);
     } catch (const UsageError&) {
       throw;
     } catch (const std::exception& problem) {  // a report is due even when the program itself is at fault

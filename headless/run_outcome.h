@@ -12,6 +12,6 @@ namespace kinegraph {
 // does what the command is for; its exit code counts with the run's. It is called whenever the run began.
 int run_to_outcome(const Program& program, const RunArguments& arguments, Opened opened,
                    const std::function<std::vector<Target>(Session&)>& targets,
-                   const std::function<int(Session&, const RunLog&)>& after);
+                   const std::function<int(Session&, const Outcome&)>& after);
 
 }  // namespace kinegraph

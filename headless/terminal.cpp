@@ -52,11 +52,12 @@ void Terminal::say(const Diagnostic& diagnostic) const {
   std::string text = to_text(diagnostic);
   if (err_color_) {
     std::string word = name_of(diagnostic.severity);
-    auto tint = diagnostic.severity == Severity::error     ? Tint::red
-                : diagnostic.severity == Severity::warning ? Tint::yellow
-                                                           : Tint::blue;
+    auto tint = diagnostic.severity == Severity::error ? Tint::red : Tint::yellow;
     auto at = text.find(word + ":");
-    if (at != std::string::npos) text.replace(at, word.size(), with_tint(word, tint));
+    if (diagnostic.severity == Severity::info)
+      text = with_tint(text, Tint::faint);
+    else if (at != std::string::npos)
+      text.replace(at, word.size(), with_tint(word, tint));
   }
   message(text + "\n");
 }

@@ -87,7 +87,10 @@ bool WriteRules::inside(const std::string& real, const std::string& path, const 
 std::string WriteRules::take(const std::string& node, const std::string& path, const std::string& of) {
   const std::string real = real_path(path);
   if (!inside(real, path, of)) {
-    throw Failure(error("write-outside", "'" + path + "' lies outside the output folder '" + out_ + "'")
+    const bool linked = is_below(normal(path), out_);
+    throw Failure(error("write-outside", "'" + path + "' " +
+                                             (linked ? "is linked to '" + real + "' and so " : "") +
+                                             "lies outside the output folder '" + out_ + "'")
                       .hinting("give a path below --out, or allow it with --allow-outside"));
   }
   std::lock_guard lock(mutex_);

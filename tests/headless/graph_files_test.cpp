@@ -43,6 +43,23 @@ TEST_F(GraphFiles, ValidateAsksForInputFilesUnlessTold) {
   EXPECT_EQ(run({"validate", "--no-files", "g.kg.json"}).exit, 0);
 }
 
+TEST_F(GraphFiles, ValidateFindsNodesThatLackWhatTheyAreFor) {
+  write("load.kg.json", graph(R"("l": {"type": "Load"})"));
+  Ran ran = run({"validate", "load.kg.json"});
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_THAT(ran.out + ran.err, HasSubstr("error: no-file: l.file: no file is named (set file)"));
+  EXPECT_EQ(run({"validate", "load.kg.json", "--no-files"}).exit, 0);
+  write("open.kg.json",
+        graph(R"("l": {"type": "Load"})", R"("params": {"clip": "l.file"}, "outputs": {"o": "l.motion"})"));
+  EXPECT_EQ(run({"validate", "open.kg.json"}).exit, 0);  // whoever uses it gives the file
+  write("export.kg.json", graph(R"("e": {"type": "Export", "params": {"file": "a.bvh"}})"));
+  ran = run({"run", "export.kg.json"});
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_THAT(ran.err, HasSubstr("open-input: e: no input of this Export is linked"));
+  write("off.kg.json", graph(R"("e": {"type": "Export", "enabled": false})"));
+  EXPECT_EQ(run({"validate", "off.kg.json"}).exit, 0);
+}
+
 TEST_F(GraphFiles, ValidateStrictCountsWarnings) {
   write("g.kg.json", graph(R"("odd": {"type": "Telepathy"})"));
   EXPECT_EQ(run({"validate", "g.kg.json"}).exit, 0);
@@ -122,6 +139,10 @@ TEST_F(GraphFiles, FilesListsReadsAndWrites) {
   auto told = nlohmann::json::parse(run({"files", "--json", "g.kg.json"}).out);
   EXPECT_EQ(told["reads"].size(), 2u);
   EXPECT_EQ(told["writes"][0]["path"], "sub/o.csv");
+
+  write("deep/er/g.kg.json",
+        graph(R"("numbers": {"type": "Load", "params": {"file": "../../metrics.json"}})"));
+  EXPECT_THAT(run({"files", "deep/er/g.kg.json"}).out, HasSubstr("read   ../../metrics.json"));
 }
 
 TEST_F(GraphFiles, NodesIsTheReferenceInThreeForms) {
@@ -138,7 +159,7 @@ TEST_F(GraphFiles, NodesIsTheReferenceInThreeForms) {
 TEST_F(GraphFiles, CacheIsCountedCheckedAndCleared) {
   write("g.kg.json", walk_and_export());
   ASSERT_EQ(run({"run", "g.kg.json", "--cache", "cache"}).exit, 0);
-  EXPECT_THAT(run({"cache", "stat", "--cache", "cache"}).out, HasSubstr("1 entries"));
+  EXPECT_THAT(run({"cache", "stat", "--cache", "cache"}).out, HasSubstr("1 entry"));
   EXPECT_EQ(run({"cache", "verify", "--cache", "cache"}).exit, 0);
   for (const auto& file : files())
     if (file.ends_with(".kgv")) write(file, "spoilt");
