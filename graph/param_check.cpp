@@ -135,7 +135,8 @@ class Checker {
     const auto keys = keys_of(type.choices);
     if (std::find(keys.begin(), keys.end(), value.string()) == keys.end())
       add(error("bad-choice", fmt::format("{} is none of the choices", shown(value)))
-              .hinting(suggestion(value.string(), keys)),
+              .hinting(suggestion(value.string(), keys) +
+                       (type.kind == Kind::unit ? ", or a number of metres" : "")),
           value, where);
   }
 

@@ -322,15 +322,18 @@ TEST_F(WholeFile, OneMistakeIsToldOnce) {
                               registry_, options_)
                 .problems.size(),
             1u);
-  EXPECT_EQ(
-      read_and_validate(nodes(R"("a": {"type": "Load", "params": {"fps": "${x}"}})"), registry_, options_)
-          .problems.size(),
-      1u);
+  EXPECT_EQ(read_and_validate(
+                nodes(R"("a": {"type": "Load", "params": {"file": "clips/walk.bvh", "fps": "${x}"}})"),
+                registry_, options_)
+                .problems.size(),
+            1u);
 }
 
 TEST_F(WholeFile, ColumnsCountCharacters) {
-  const ReadResult result = read_and_validate(
-      nodes("\"a\": {\"note\": \"éé漢🙂\", \"typo\": 1, \"type\": \"Load\"}"), registry_, options_);
+  const ReadResult result =
+      read_and_validate(nodes("\"a\": {\"note\": \"éé漢🙂\", \"typo\": 1, \"type\": \"Load\", "
+                              "\"params\": {\"file\": \"clips/walk.bvh\"}}"),
+                        registry_, options_);
   EXPECT_EQ(in_short(result.problems), std::vector<std::string>{"2:23 unknown-key"});
 }
 

@@ -124,6 +124,7 @@ TEST_F(Sameness, ColdWarmAndOnAnyNumberOfThreads) {
 
 TEST_F(Sameness, InAnotherFolderAndWithNodesRenamed) {
   auto all = graphs();
+  fs::create_directories(path("far"));
   fs::copy(path("graphs"), path("far/away"), fs::copy_options::recursive);
   // Names that sort the other way round, so that nothing can hang on their order.
   Rename other = [](const std::string& name) {
