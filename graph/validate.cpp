@@ -93,10 +93,7 @@ class Validator {
     const auto stored = node.params.find(subject.name);
     const bool named =
         stored != node.params.end() && !(stored->second.is_string() && stored->second.string().empty());
-    // A misspelt "file" has been told of already.
-    const bool known = std::all_of(node.params.begin(), node.params.end(),
-                                   [&](const auto& param) { return type.find_param(param.first); });
-    if (!named && known && !is_published_param(name, subject.name))
+    if (!named && !is_published_param(name, subject.name))
       add(error("no-file", "no file is named").at_param(subject.name).hinting("set " + subject.name),
           stored == node.params.end() ? node.place : stored->second.place, name);
   }

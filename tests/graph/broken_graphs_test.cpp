@@ -306,7 +306,7 @@ TEST_F(WholeFile, TellsAllItsProblemsAtOnceInTheirOrder) {
                                               registry_, options_);
   EXPECT_EQ(in_short(result.problems),
             (std::vector<std::string>{
-                "4:3 unknown-key", "6:45 out-of-range", "6:49 unknown-param", "6:71 bad-range",
+                "4:3 unknown-key", "6:5 no-file", "6:45 out-of-range", "6:49 unknown-param", "6:71 bad-range",
                 "7:5 duplicate-key", "8:57 type-mismatch", "8:69 unknown-port", "8:106 wrong-type",
                 "9:19 unknown-type", "10:45 unknown-param", "10:85 cycle", "10:97 unknown-port",
                 "10:108 bad-link", "12:31 unknown-param", "12:62 unknown-node", "13:33 wrong-type"}))
