@@ -87,7 +87,7 @@ class Validator {
       if (value) check_paths(name, node, *param, *value, key);
     }
     // A type that begins with a path is about that file.
-    if (!options_.check_files || !node.enabled || type.params.empty()) return;
+    if (!options_.check_files || !node.enabled || type.role != Role::compute || type.params.empty()) return;
     const Param& subject = type.params.front();
     if (subject.kind != Kind::open_file && subject.kind != Kind::save_file) return;
     const auto stored = node.params.find(subject.name);
