@@ -53,10 +53,10 @@ GaitStyle one_foot(GaitStyle style, bool left) {
 // A whole gait: what is where at any time.
 class Walker {
  public:
-  Walker(const GaitParams& params, const GaitStyle& style)
+  Walker(const GaitParams& params, const GaitStyle& style, Work& work)
       : style_(style), seed_(params.seed), pace_(resolved_pace(params)), period_(2 / pace_.cadence) {
     seconds_ = params.seconds;
-    settle_pelvis();
+    settle_pelvis(work);
   }
 
   BodyPose body(double t) const {
@@ -78,7 +78,7 @@ class Walker {
 
   // Puts the prints so far ahead of the pelvis that it can be highest, and the pelvis as high as the longer
   // leg allows.
-  void settle_pelvis() {
+  void settle_pelvis(Work& work) {
     constexpr double fine = 160;  // samples a cycle
     const double reach = style_.reach * shape_.leg();
     const double span = seed_ == 0 ? 2 * period_ : std::max(seconds_, 2 * period_);
@@ -86,6 +86,7 @@ class Walker {
     for (bool left : {true, false}) {
       const GaitFoot track = foot(left);
       for (double t = 0; t < span; t += period_ / fine) {
+        if (lines.size() % 64 == 0) work.check();
         const BodyPose pose = body_pose(style_, t / period_, t, pace_.speed, seed_);
         const Vec3 hip = pose.hips + rotate(pose.pelvis, hip_offset(left));
         const Vec3 gap = track.at(t).ankle - hip;
@@ -104,6 +105,7 @@ class Walker {
     };
     double low = -0.6, high = 0.6;
     for (int i = 0; i < 60; ++i) {
+      work.check();
       const double a = low + (high - low) / 3, b = high - (high - low) / 3;
       (allowed(a) < allowed(b) ? low : high) = allowed(a) < allowed(b) ? a : b;
     }
@@ -198,7 +200,7 @@ Pace resolved_pace(const GaitParams& params) {
 }
 
 Motion make_gait(const GaitParams& params, Work& work) {
-  const Walker walker(params, adjusted_style(params));
+  const Walker walker(params, adjusted_style(params), work);
   const auto skeleton = gait_skeleton(walker.shape());
   const auto frames = static_cast<std::size_t>(std::floor(params.seconds * params.fps + 0.5));
   std::vector<bool> translates(skeleton->joints.size(), false);
@@ -216,6 +218,7 @@ Motion make_gait(const GaitParams& params, Work& work) {
     }
   });
   for (int joint = 0; joint < gait_joint_count; ++joint) {
+    work.check();
     const QuatTrack track = motion.rotation(joint);
     make_continuous(track.x, track.y, track.z, track.w);
   }
