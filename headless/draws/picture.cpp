@@ -20,9 +20,12 @@ Canvas picture_of(const Value& value, const PictureOptions& options) {
   }
   if (auto warp = dynamic_cast<const Warp*>(&value)) return draw_warp(*warp, options.title);
   if (auto stats = dynamic_cast<const Stats*>(&value)) return draw_stats(*stats, options.title);
-  if (auto metrics = dynamic_cast<const Metrics*>(&value)) return draw_metrics(*metrics, options.title);
+  if (auto components = dynamic_cast<const Components*>(&value))
+    return draw_components(*components, options.title);
+  if (auto metrics = dynamic_cast<const Metrics*>(&value))
+    return is_meaning(*metrics) ? draw_meaning(*metrics, options.title) : draw_metrics(*metrics, options.title);
   throw Failure(error("no-picture", "a value of type " + std::string(value.type()) + " has no picture")
-                    .hinting("draw an output of type Motion, Contacts, Warp, Stats or Metrics"));
+                    .hinting("draw an output of type Motion, Components, Contacts, Warp, Stats or Metrics"));
 }
 
 }  // namespace kinegraph

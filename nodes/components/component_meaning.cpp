@@ -98,33 +98,31 @@ std::vector<std::optional<double>> emotion_distances(const Components& component
 }  // namespace
 
 std::optional<double> cadence_of(const Components& components, std::size_t entry) {
-  std::size_t longest = 0;
-  for (const ComponentSegment& segment : components.segments) longest = std::max(longest, segment.frames());
-  if (longest < 4) return std::nullopt;
-  std::vector<double> correlation(longest * 2 / 3);
-  for (std::size_t lag = 0; lag < correlation.size(); ++lag) {
-    double sum = 0;
-    std::size_t count = 0;
-    for (const ComponentSegment& segment : components.segments) {
-      const double* u = components.signals.row(entry) + segment.start;
-      double mean = 0;
-      for (std::size_t t = 0; t < segment.frames(); ++t) mean += u[t] / static_cast<double>(segment.frames());
-      for (std::size_t t = 0; t + lag < segment.frames(); ++t, ++count)
-        sum += (u[t] - mean) * (u[t + lag] - mean);
+  double strongest = 0;
+  std::size_t period = 0;
+  for (const ComponentSegment& segment : components.segments) {
+    const double* u = components.signals.row(entry) + segment.start;
+    double mean = 0;
+    for (std::size_t t = 0; t < segment.frames(); ++t) mean += u[t] / static_cast<double>(segment.frames());
+    std::vector<double> correlation(segment.frames() * 2 / 3);
+    for (std::size_t lag = 0; lag < correlation.size(); ++lag) {
+      double sum = 0;
+      for (std::size_t t = 0; t + lag < segment.frames(); ++t) sum += (u[t] - mean) * (u[t + lag] - mean);
+      correlation[lag] = sum / static_cast<double>(segment.frames() - lag);
     }
-    correlation[lag] = count ? sum / static_cast<double>(count) : 0;
+    std::size_t lag = 0, best = 0;
+    while (lag < correlation.size() && correlation[lag] > 0) ++lag;
+    for (lag = std::max<std::size_t>(lag, 1); lag + 1 < correlation.size(); ++lag)
+      if (correlation[lag] >= correlation[lag - 1] && correlation[lag] >= correlation[lag + 1] &&
+          (best == 0 ||
+           correlation[lag] > 1.1 * correlation[best]))  // a multiple of the period must be clearly better
+        best = lag;
+    if (best == 0 || correlation[best] < 0.3 * correlation[0] || correlation[best] <= strongest) continue;
+    strongest = correlation[best];
+    period = best;
   }
-  if (correlation[0] <= 1e-12) return std::nullopt;
-  std::size_t lag = 0;
-  while (lag < correlation.size() && correlation[lag] > 0) ++lag;
-  std::size_t best = 0;
-  for (; lag + 1 < correlation.size(); ++lag)
-    if (correlation[lag] >= correlation[lag - 1] && correlation[lag] >= correlation[lag + 1] &&
-        (best == 0 ||
-         correlation[lag] > 1.1 * correlation[best]))  // a multiple of the period must be clearly better
-      best = lag;
-  if (best == 0 || correlation[best] < 0.3 * correlation[0]) return std::nullopt;
-  return components.fps / static_cast<double>(best);
+  if (period == 0 || strongest <= 1e-12) return std::nullopt;
+  return components.fps / static_cast<double>(period);
 }
 
 std::vector<Moved> moved_by(const Components& components, std::size_t entry) {

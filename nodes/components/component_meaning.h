@@ -13,8 +13,8 @@
 
 namespace kinegraph {
 
-// The most regular period of the signal, in Hz: the highest peak of its autocorrelation after it first falls
-// below zero, over all segments together; none where no peak reaches 0.3.
+// How often the signal repeats, in Hz: the highest peak of its autocorrelation after it first falls below
+// zero, in the segment where that is strongest; none where no segment's peak reaches 0.3 of its variance.
 std::optional<double> cadence_of(const Components& components, std::size_t entry);
 
 // How far a component moves each joint or point: root mean square over its signals, in metres, for rotations

@@ -1,0 +1,117 @@
+// What components mean, as bars [Cao Fig. 2]: a column a component.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "headless/draws/sheets.h"
+#include "headless/draws/theme.h"
+
+namespace kinegraph {
+namespace {
+
+constexpr double step = 40;  // from bar to bar
+
+struct Component {
+  std::string name;  // "u1"
+  const Metric* emotion = nullptr;
+  const Metric* variance = nullptr;
+  const Metric* cadence = nullptr;
+  std::vector<const Metric*> regions, moves;
+};
+
+std::string rest_after(const std::string& name, std::string_view part) {
+  return name.substr(name.find(part) + part.size());
+}
+
+std::vector<Component> components_in(const Metrics& metrics) {
+  std::vector<Component> out;
+  for (const Metric& metric : metrics.all) {
+    const auto dot = metric.name.find('.');
+    if (dot == std::string::npos || metric.name[0] != 'u') continue;
+    const std::string name = metric.name.substr(0, dot), what = metric.name.substr(dot + 1);
+    if (out.empty() || out.back().name != name) out.push_back({.name = name});
+    if (what == "d_emotion") out.back().emotion = &metric;
+    if (what == "variance") out.back().variance = &metric;
+    if (what == "cadence") out.back().cadence = &metric;
+    if (what.starts_with("d_region.")) out.back().regions.push_back(&metric);
+    if (what.starts_with("moves.")) out.back().moves.push_back(&metric);
+  }
+  return out;
+}
+
+// Bars up from a line, and down from it for what is below zero, to a common scale.
+void draw_bars(Canvas& canvas, double x, double top, double height, const std::vector<const Metric*>& metrics,
+               double low, double high, Color color) {
+  const double zero = top + height * high / (high - low);
+  canvas.stroke(polyline({{x - 4, zero}, {x + step * static_cast<double>(metrics.size()) - step + 20, zero}}),
+                {theme::faint, 1});
+  for (const Metric* metric : metrics) {
+    if (metric && metric->value) {
+      const double end = zero - height * *metric->value / (high - low);
+      canvas.fill(rectangle(x, std::min(zero, end), 16, std::max(1.0, std::fabs(end - zero)), 2), color);
+      canvas.text({x + 8, end < zero ? end - 4 : end + 10}, fmt::format("{:.2g}", *metric->value),
+                  {.size = 8.5, .color = theme::muted, .anchor = Anchor::middle});
+    }
+    x += step;
+  }
+}
+
+}  // namespace
+
+bool is_meaning(const Metrics& metrics) {
+  return metrics.find("u1.d_emotion") && metrics.find("u1.variance");
+}
+
+Canvas draw_meaning(const Metrics& metrics, const std::string& title) {
+  const auto components = components_in(metrics);
+  const std::size_t regions = components.front().regions.size();
+  const double column = std::max(150.0, step * static_cast<double>(regions) + 84);
+  Canvas canvas(std::max(520.0, 2 * theme::margin + 60 + column * static_cast<double>(components.size())),
+                100);
+  const double y = theme::draw_title(
+      canvas, title, "emotion: what tells clips apart; regions, m: below the line it rebuilds them");
+  const double height = 150, top = y + 34;
+  double emotion = 1e-9, low = 0, high = 1e-9;
+  for (const Component& one : components) {
+    if (one.emotion && one.emotion->value) emotion = std::max(emotion, *one.emotion->value);
+    for (const Metric* region : one.regions) {
+      if (!region->value) continue;
+      low = std::min(low, *region->value);
+      high = std::max(high, *region->value);
+    }
+  }
+  double x = theme::margin + 20;
+  for (const Component& one : components) {
+    canvas.fill(rectangle(x - 14, y + 4, column - 10, height + 160, 4), theme::panel);
+    canvas.text({x, y + 24}, one.name, {.size = 15, .color = theme::ink, .bold = true});
+    draw_bars(canvas, x + 6, top + 8, height, {one.emotion}, 0, emotion, theme::right);
+    canvas.text({x + 18, top + height + 30}, "emotion",
+                {.size = 9.5, .color = theme::muted, .anchor = Anchor::end, .turned = -50});
+    double at = x + 50;
+    draw_bars(canvas, at, top + 8, height, one.regions, low, high, theme::left);
+    for (const Metric* region : one.regions) {
+      canvas.text({at + 12, top + height + 30}, fitted(rest_after(region->name, "d_region."), 9.5, 60),
+                  {.size = 9.5, .color = theme::muted, .anchor = Anchor::end, .turned = -50});
+      at += step;
+    }
+    double line = top + height + 86;
+    const auto say = [&](const std::string& text) {
+      canvas.text({x - 4, line}, fitted(text, 9.5, column - 26), {.size = 9.5, .color = theme::ink});
+      line += 13;
+    };
+    if (one.variance && one.variance->value)
+      say(fmt::format("{:.1f} % of the variance", 100 * *one.variance->value));
+    say(one.cadence && one.cadence->value ? fmt::format("{:.2f} Hz", *one.cadence->value) : "no steady beat");
+    std::string moved;
+    for (const Metric* move : one.moves)
+      moved += (moved.empty() ? "" : ", ") + rest_after(move->name, "moves.");
+    if (!moved.empty()) say(moved);
+    x += column;
+  }
+  canvas.set_height(top + height + 152);
+  return canvas;
+}
+
+}  // namespace kinegraph

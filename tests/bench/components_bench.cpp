@@ -1,0 +1,75 @@
+// Components: principal components, whitening, one start of FastICA and the default ones, and an edit's
+// slider.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <random>
+
+#include "nodes/components/component_edit.h"
+#include "nodes/components/ica.h"
+#include "nodes/components/rebuild.h"
+#include "tests/nodes/time/walks.h"
+
+namespace kinegraph {
+namespace {
+
+// Laplace sources, mixed into 93 channels, with noise of 0.01: a set of 31 joints.
+Rows mixed(std::size_t sources, std::size_t frames) {
+  std::mt19937 generator(1);
+  const auto unit = [&] { return (generator() + 0.5) / 4294967296.0; };
+  Rows s(sources, frames), a(93, sources);
+  for (double& x : s.data) {
+    const double u = unit() - 0.5;
+    x = -std::copysign(std::log(1 - 2 * std::fabs(u)), u);
+  }
+  for (double& x : a.data) x = 2 * unit() - 1;
+  Rows x = product(a, s);
+  for (double& value : x.data) value += 0.02 * (unit() - 0.5);
+  return x;
+}
+
+void decompose_channels(benchmark::State& state) {
+  const Rows x = mixed(12, static_cast<std::size_t>(state.range(0)));
+  IcaParams params;
+  params.components = 12;
+  params.starts = static_cast<int>(state.range(1));
+  Alone work;
+  for (auto _ : state) benchmark::DoNotOptimize(decompose(x, params, work));
+}
+BENCHMARK(decompose_channels)
+    ->Unit(benchmark::kMillisecond)
+    ->Args({1000, 1})
+    ->Args({10000, 1})
+    ->Args({10000, 8});
+
+void principal_and_whitening(benchmark::State& state) {
+  const Rows x = mixed(12, 10000);
+  Alone work;
+  for (auto _ : state) benchmark::DoNotOptimize(whiten(x, principal_components(x, work), 12, work));
+}
+BENCHMARK(principal_and_whitening)->Unit(benchmark::kMillisecond);
+
+// A clip of 1,000 frames: one value of ComponentEdit's slider, with the motion that comes out.
+void edit_slider(benchmark::State& state) {
+  Alone work;
+  const std::vector<std::shared_ptr<const Motion>> clips = {
+      std::make_shared<const Motion>(gait("walk", 1000 / 120.0, 120)),
+      std::make_shared<const Motion>(gait("sneak", 4, 120))};
+  const std::vector<bool> all(static_cast<std::size_t>(clips[0]->joints()), true);
+  IcaParams params;
+  params.components = 5;
+  const Components components = components_of_motions(
+      space_of_motions(Representation::points, clips, all, true, {}, work), clips, params, work);
+  ComponentEditParams edit;
+  double factor = 1;
+  for (auto _ : state) {
+    edit.edits = {edits::Scale{{1, ""}, factor += 0.01}};
+    const ComponentEditResult result = edit_components(components, edit, {}, work);
+    benchmark::DoNotOptimize(
+        motion_of(result.components, result.channels, result.components.segments[result.segment], {}, work));
+  }
+}
+BENCHMARK(edit_slider)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace kinegraph
