@@ -202,7 +202,8 @@ Principal principal_components(const Rows& channels, Work& work) {
       rest += channels(i, t) - mean;  // the rounding of the first pass
     out.mean[i] = mean + rest / static_cast<double>(columns);
   }
-  const Rows x = centred(channels, out.mean, work);
+  out.centred = centred(channels, out.mean, work);
+  const Rows& x = out.centred;
   out.axes = identity(d);
   out.variance.resize(d);
   // A covariance knows its small variances only to 1e-16 of the largest. So the axes under 1e-8 of the first
@@ -211,14 +212,14 @@ Principal principal_components(const Rows& channels, Work& work) {
     const std::size_t m = d - first;
     Rows axes(m, d);
     std::copy_n(out.axes.row(first), m * d, axes.data.data());
-    Rows projected(m, columns), covariance(m, m);
-    if (first == 0)
-      projected.data = x.data;
-    else
+    Rows projected, covariance(m, m);
+    if (first > 0) {
+      projected = Rows(m, columns);
       mix_rows(axes.data.data(), m, d, x.data.data(), columns, projected.data.data());
-    work.check();
-    products_of_rows(projected.data.data(), m, projected.data.data(), m, columns, true,
-                     covariance.data.data());
+      work.check();
+    }
+    const double* rows = first > 0 ? projected.data.data() : x.data.data();
+    products_of_rows(rows, m, rows, m, columns, true, covariance.data.data());
     work.check();
     const Eigenpairs pairs = symmetric_eigen(covariance);
     const Rows turned = product(pairs.vectors, axes);
@@ -234,8 +235,9 @@ Principal principal_components(const Rows& channels, Work& work) {
   return out;
 }
 
-Whitened whiten(const Rows& channels, const Principal& principal, std::size_t k, Work& work) {
-  const std::size_t d = channels.rows, columns = channels.columns;
+Whitened whiten(const Principal& principal, std::size_t k, Work& work) {
+  const Rows& x = principal.centred;
+  const std::size_t d = x.rows, columns = x.columns;
   Whitened out{Rows(k, columns), Rows(d, k), Rows(k, d)};
   for (std::size_t i = 0; i < k; ++i) {
     const double sigma = std::sqrt(principal.variance[i]);
@@ -244,8 +246,8 @@ Whitened whiten(const Rows& channels, const Principal& principal, std::size_t k,
       out.p_inverse(i, j) = principal.axes(i, j) / sigma;
     }
   }
-  const Rows x = centred(channels, principal.mean, work);
   mix_rows(out.p_inverse.data.data(), k, d, x.data.data(), columns, out.z.data.data());
+  work.check();
   return out;
 }
 
@@ -263,6 +265,7 @@ constexpr double gaussian_log_cosh = 0.3745672;  // E[log cosh ν] of a standard
 // The angle by which turning a and b into each other gives the largest negentropy, of seven and none; by
 // every `stride`-th sample.
 double best_turn(const double* a, const double* b, std::size_t count, std::size_t stride) {
+  constexpr double gaussian = 1.3545308064;  // E[√(1 + ν²)] of a standard normal ν
   double best = 0, most = 0;
   for (int step = 0; step < 8; ++step) {
     const double angle = step * pi / 16;
@@ -270,11 +273,12 @@ double best_turn(const double* a, const double* b, std::size_t count, std::size_
     double first = 0, second = 0;
     std::size_t n = 0;
     for (std::size_t t = 0; t < count; t += stride, ++n) {
-      first += log_cosh(turn.cos * a[t] + turn.sin * b[t]);
-      second += log_cosh(turn.cos * b[t] - turn.sin * a[t]);
+      const double x = turn.cos * a[t] + turn.sin * b[t], y = turn.cos * b[t] - turn.sin * a[t];
+      first += std::sqrt(1 + x * x);
+      second += std::sqrt(1 + y * y);
     }
-    first = first / static_cast<double>(n) - gaussian_log_cosh;
-    second = second / static_cast<double>(n) - gaussian_log_cosh;
+    first = first / static_cast<double>(n) - gaussian;
+    second = second / static_cast<double>(n) - gaussian;
     const double worth = first * first + second * second;
     if (step == 0 || worth > 1.02 * most) {
       most = worth;
@@ -289,7 +293,7 @@ double best_turn(const double* a, const double* b, std::size_t count, std::size_
 constexpr std::size_t most_pairwise = 20;  // components; beyond, pairs are too many to try
 
 FastIcaRun leave_side_optimum(const Rows& z, FastIcaRun run, const FastIcaParams& params, Work& work) {
-  const std::size_t k = run.w.rows, stride = std::max<std::size_t>(1, z.columns / 1000);
+  const std::size_t k = run.w.rows, stride = std::max<std::size_t>(1, z.columns / 500);
   for (int round = 0; round < 4 && k <= most_pairwise; ++round) {
     const Rows u = rotated(run.w, z);
     Rows start = run.w;
@@ -340,9 +344,7 @@ Rows rotated(const Rows& w, const Rows& z) {
 double negentropy(const Rows& u) {
   double sum = 0;
   for (std::size_t i = 0; i < u.rows; ++i) {
-    double mean = 0;
-    for (std::size_t t = 0; t < u.columns; ++t) mean += log_cosh(u(i, t));
-    mean /= static_cast<double>(u.columns);
+    const double mean = sum_of_log_cosh(u.row(i), u.columns) / static_cast<double>(u.columns);
     sum += (mean - gaussian_log_cosh) * (mean - gaussian_log_cosh);
   }
   return sum;

@@ -14,6 +14,7 @@ namespace kinegraph {
 // directions.
 struct Principal {
   std::vector<double> mean;  // D
+  Rows centred;              // D x T: the channels without their means
   std::vector<double>
       variance;          // D, >= 0, falling; small ones to nearly full relative accuracy, as from an SVD
   Rows axes;             // D x D: row i is the unit axis of variance[i]
@@ -28,7 +29,7 @@ struct Whitened {
   Rows p_inverse;  // k x D: z = p_inverse (x - mean)
 };
 // k <= rank.
-Whitened whiten(const Rows& channels, const Principal& principal, std::size_t k, Work& work);
+Whitened whiten(const Principal& principal, std::size_t k, Work& work);
 
 enum class Nonlinearity { logcosh, pow3, gauss };
 

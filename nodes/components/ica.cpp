@@ -172,7 +172,7 @@ Decomposition decompose(const Rows& channels, const IcaParams& params, Work& wor
             .at_param("components")
             .hinting(
                 fmt::format("ask for at most {}, or 0 for as many as `variance` needs", principal.rank)));
-  const Whitened white = whiten(channels, principal, k, work);
+  const Whitened white = whiten(principal, k, work);
 
   Decomposition out;
   out.mean = principal.mean;

@@ -17,4 +17,7 @@ void mix_rows(const double* w, std::size_t m, std::size_t k, const double* z, st
 // kind 0: tanh y; 1: y³; 2: y exp(-y²/2).
 void nonlinearity_of_row(int kind, double* y, std::size_t columns, double* slope, double* beta);
 
+// Σ ln cosh y over a row.
+double sum_of_log_cosh(const double* y, std::size_t columns);
+
 }  // namespace kinegraph
