@@ -6,9 +6,9 @@
 namespace kinegraph {
 namespace {
 
-// Steps a second at least: of the quarter-second swings of the defaults 60 to a swing.
-constexpr double usual_rate = 240;
-constexpr double exact_enough = 1e-13;  // of r⁺, in parts of the link's length
+// Steps a second at least: some 40 to a swing of the defaults, which is of second order.
+constexpr double usual_rate = 120;
+constexpr double exact_enough = 1e-12;  // of r⁺, in parts of the link's length
 constexpr int most_repetitions = 40;
 // The push of a squashed link, as part of the system's diagonal, beyond which the step is halved, and how
 // often.
