@@ -14,6 +14,8 @@ namespace kinegraph {
 
 // One line a type: the function is defined in NAME_node.cpp of its family's folder.
 NodeType gait_node();
+NodeType burst_node();
+NodeType marker_mesh_node();
 NodeType ica_node();
 NodeType component_edit_node();
 NodeType component_meaning_node();
@@ -62,6 +64,8 @@ Registry all_nodes() {
                          .help = "independent components of one or several clips",
                          .decode = decode_components});
   registry.add(gait_node());
+  registry.add(burst_node());
+  registry.add(marker_mesh_node());
   registry.add(ica_node());
   registry.add(component_edit_node());
   registry.add(component_meaning_node());

@@ -130,6 +130,12 @@ void add_new_morphs(GltfOut& out, const Character& character) {
   }
 }
 
+void drop_source_weights(GltfOut& out, const Character& character) {
+  for (const MeshPart& part : character.parts)
+    if (part.skin >= 0 && part.source_mesh >= 0)
+      drop_weights(attributes_of(primitive_of(out, part.source_mesh, part.source_primitive)));
+}
+
 std::vector<int> repair_skins(GltfOut& out, const Character& character) {
   std::set<std::pair<int, int>> done;
   std::vector<int> node_of_part, moved(out.list("nodes").size(), -1);

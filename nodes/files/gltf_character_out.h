@@ -12,6 +12,8 @@ void put_matrix(std::vector<float>& out, const Affine& map);
 
 // Morph targets that a part has beyond those of its source mesh.
 void add_new_morphs(GltfOut& out, const Character& character);
+// Takes the weights of skinned parts out, before what is left is carried over: repair_skins writes them anew.
+void drop_source_weights(GltfOut& out, const Character& character);
 // Weights normalised, unused joints zero, skinned meshes in nodes of the scene. Returns the node of each
 // part.
 std::vector<int> repair_skins(GltfOut& out, const Character& character);

@@ -248,6 +248,7 @@ GltfOut gltf_of(const Motion* given, const Character* character, const WriteOpti
     const CharacterSource& source = *character->source;
     out.root = source_json(source);
     if (animates) out.root.object().erase("animations");
+    if (options.repair) drop_source_weights(out, *character);
     out.carry_over(source, options.repair);
     nodes = {source.node_of_joint, source.scale_of_parent};
     for (const MeshPart& part : character->parts) node_of_part.push_back(part.source_node);
