@@ -54,6 +54,11 @@ QString Session::title() const {
   return path_.isEmpty() ? tr("untitled") : QFileInfo(path_).fileName();
 }
 
+QString Session::written_path(const QString& absolute) const {
+  const QString relative = QDir(folder()).relativeFilePath(absolute);
+  return path_.isEmpty() || relative.startsWith("../../../../") ? absolute : relative;
+}
+
 Diagnostics Session::open(const QString& path) {
   QFile file(path);
   if (!file.open(QIODevice::ReadOnly)) return unreadable(path, file.errorString());

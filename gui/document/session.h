@@ -34,6 +34,8 @@ class Session : public QObject {
   QString path() const { return path_; }
   QString folder() const;
   QString title() const;  // "sneaky_walk.kg.json", "untitled"
+  // How the graph writes down a file: relative to its folder, but absolute where it lies in another tree.
+  QString written_path(const QString& absolute) const;
 
   // Reading and writing. Problems that keep a file from opening leave the session as it was and are returned;
   // warnings of a file that opened are returned too. Saving throws Failure when it can't.

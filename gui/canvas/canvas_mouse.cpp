@@ -1,0 +1,324 @@
+// What mouse, wheel and dropped files begin on the canvas.
+#include <QHelpEvent>
+#include <QMenu>
+#include <QMimeData>
+#include <QMouseEvent>
+#include <QToolTip>
+#include <QUrl>
+#include <QDir>
+#include <QFileInfo>
+#include <cmath>
+
+#include "graph/file/read.h"
+#include "gui/canvas/canvas_edits.h"
+#include "gui/canvas/graph_canvas.h"
+
+namespace kinegraph {
+namespace {
+
+constexpr double port_reach = 12;  // pixels
+
+}  // namespace
+
+void GraphCanvas::press_left(QMouseEvent* event, QPointF at) {
+  const QPointF view = event->position();
+  const Qt::KeyboardModifiers keys = event->modifiers();
+  if (const QRectF map = mini_map_rect(); !map.isNull() && map.contains(view)) {
+    pan_ += QRectF(rect()).center() - to_view(mini_map_to_graph(view));
+    moving();
+    return;
+  }
+  if (space_) return begin(pan_gesture(*this, view));
+  const double reach = port_reach / std::max(zoom_, 0.4);
+  const auto port = scene_.port_at(at, reach);
+  const SceneNode* node = scene_.node_at(at);
+  // A small dot is all port: its middle moves it, its right edge starts a wire.
+  const bool on_dot = node && node->dot && std::abs(at.x() - node->rect.center().x()) < 6;
+  if (port && !on_dot && !(keys & (Qt::ControlModifier | Qt::AltModifier))) return begin(wire_gesture(*this, *port));
+  if (node) {
+    if (node->expandable && zoom_ >= 0.6 && node->more.contains(at - node->rect.topLeft()) && !keys) {
+      if (!expanded_.erase(node->name)) expanded_.insert(node->name);
+      rebuild();
+      return;
+    }
+    std::set<std::string> chosen = session_.selected();
+    const std::string name = node->name;
+    if (keys & (Qt::ShiftModifier | Qt::ControlModifier)) {
+      if (chosen.erase(name) == 0) chosen.insert(name);
+      session_.select(chosen, chosen.count(name) ? name : std::string());
+      return;
+    }
+    const bool take_out = keys & Qt::AltModifier;
+    if (take_out || !chosen.count(name)) chosen = {name};
+    session_.select(chosen, name);
+    if (chosen.size() == 1) select_decor({}, {});
+    begin(move_gesture(*this, view, chosen, take_out ? std::set<std::string>() : selected_notes_, take_out));
+    return;
+  }
+  if (const SceneNote* note = scene_.note_at(at)) {
+    const std::string name = note->name;
+    const QPointF corner = note->rect.bottomRight() - at;
+    if (!selected_notes_.count(name)) {
+      session_.select({});
+      select_decor({}, {name});
+    }
+    if (corner.x() < 14 && corner.y() < 14) return begin(resize_note_gesture(*this, view, name));
+    return begin(move_gesture(*this, view, session_.selected(), selected_notes_, false));
+  }
+  if (const SceneWire* wire = scene_.wire_at(at, 6 / zoom_); wire && (keys & Qt::ControlModifier)) {
+    // A dot on the wire.
+    const SceneWire on = *wire;
+    session_.perform([&](const Document& document, const Registry& registry) {
+      std::string name;
+      std::vector<EditStep> steps{
+          [&](const Document& d, const Registry& r) { return add_new_node(d, r, {"Dot", at - QPointF(10, 10), {}, {}}, &name); },
+          [&](const Document& d, const Registry& r) { return insert_on_link(d, r, name, on.to, on.to_port, on.index); }};
+      return one_after_another(document, registry, "Add a dot", steps);
+    });
+    return;
+  }
+  if (keys & Qt::ControlModifier) return begin(cut_gesture(*this, view));
+  if (const SceneFrame* frame = scene_.frame_title_at(at)) {
+    std::set<std::string> inside(frame->nodes.begin(), frame->nodes.end());
+    const std::string name = frame->name;
+    session_.select(inside);
+    select_decor({name}, {});
+    return begin(move_gesture(*this, view, inside, {}, false));
+  }
+  begin(box_select_gesture(*this, view, keys & Qt::ShiftModifier));
+}
+
+void GraphCanvas::mousePressEvent(QMouseEvent* event) {
+  setFocus(Qt::MouseFocusReason);
+  search_->cancel();
+  if (gesture_) return;
+  hover_.reset();
+  if (event->button() == Qt::MiddleButton)
+    begin(pan_gesture(*this, event->position()));
+  else if (event->button() == Qt::LeftButton)
+    press_left(event, to_graph(event->position()));
+}
+
+void GraphCanvas::mouseMoveEvent(QMouseEvent* event) {
+  if (gesture_) {
+    gesture_->move(event->position());
+    setCursor(gesture_->cursor());
+    return;
+  }
+  if ((event->buttons() & Qt::LeftButton) && !mini_map_rect().isNull() && mini_map_rect().contains(event->position())) {
+    pan_ += QRectF(rect()).center() - to_view(mini_map_to_graph(event->position()));
+    moving();
+    return;
+  }
+  hover(event->position());
+}
+
+void GraphCanvas::mouseReleaseEvent(QMouseEvent* event) {
+  if (!gesture_) return;
+  const auto gesture = std::move(gesture_);
+  gesture->release(event->position());
+  unsetCursor();
+  hover(event->position());
+  update();
+}
+
+void GraphCanvas::hover(QPointF view) {
+  const QPointF at = to_graph(view);
+  const auto port = scene_.port_at(at, port_reach / std::max(zoom_, 0.4));
+  if (port != hover_) {
+    hover_ = port;
+    setCursor(space_ ? Qt::OpenHandCursor : hover_ ? Qt::CrossCursor : Qt::ArrowCursor);
+    update();
+  }
+  QString text;
+  if (hover_) {
+    const SceneNode* node = scene_.node(hover_->node);
+    const ScenePort* spot = node->port(hover_->input, hover_->port);
+    text = QString::fromStdString(hover_->node + "." + hover_->port);
+    if (spot && !spot->type.empty()) text += " · " + QString::fromStdString(spot->type);
+    if (spot && !spot->help.isEmpty()) text += " · " + spot->help;
+  } else if (const SceneWire* wire = scene_.node_at(at) ? nullptr : scene_.wire_at(at, 6 / zoom_)) {
+    text = QString::fromStdString(wire->from + "." + wire->from_port + " → " + wire->to + "." + wire->to_port) +
+           tr(" · Ctrl+click puts a dot, Ctrl+drag cuts");
+  }
+  emit hovered_text(text);
+}
+
+void GraphCanvas::leaveEvent(QEvent*) {
+  hover_.reset();
+  emit hovered_text({});
+  update();
+}
+
+void GraphCanvas::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  gesture_.reset();
+  unsetCursor();
+  const QPointF at = to_graph(event->position());
+  if (const SceneNode* node = scene_.node_at(at)) {
+    session_.select({node->name}, node->name);
+    rename_selected();
+    return;
+  }
+  if (const SceneNote* note = scene_.note_at(at)) {
+    const std::string name = note->name;
+    edit_text(note->rect, note->text, [this, name](const QString& text) {
+      session_.perform([&](const Document& d, const Registry&) { return set_note_text(d, name, text); });
+    });
+    return;
+  }
+  if (const SceneFrame* frame = scene_.frame_title_at(at)) {
+    const std::string name = frame->name;
+    edit_text(frame->title_bar, frame->title, [this, name](const QString& text) {
+      session_.perform([&](const Document& d, const Registry&) { return set_frame_title(d, name, text); });
+    });
+    return;
+  }
+  search_to_add(at);
+}
+
+void GraphCanvas::wheelEvent(QWheelEvent* event) {
+  search_->cancel();
+  if (event->modifiers() & Qt::ShiftModifier) {
+    pan_by(QPointF(event->angleDelta().y() + event->angleDelta().x(), 0) * 0.5);
+    return;
+  }
+  wheel_left_ += event->angleDelta().y() / 120.0;
+  const int steps = int(wheel_left_);
+  wheel_left_ -= steps;
+  if (steps) zoom_at(event->position(), steps);
+  event->accept();
+}
+
+void GraphCanvas::contextMenuEvent(QContextMenuEvent* event) {
+  if (gesture_) return;
+  const QPointF at = to_graph(event->reason() == QContextMenuEvent::Mouse ? QPointF(event->pos()) : QRectF(rect()).center());
+  const SceneNode* node = event->reason() == QContextMenuEvent::Mouse ? scene_.node_at(at) : scene_.node(session_.current());
+  QMenu menu(this);
+  if (node) {
+    if (!session_.selected().count(node->name)) session_.select({node->name}, node->name);
+    menu.addAction(node->enabled ? tr("Disable") : tr("Enable"), this, &GraphCanvas::toggle_enabled);
+    menu.addAction(tr("Rename…"), this, &GraphCanvas::rename_selected);
+    menu.addAction(tr("Colour…"), this, &GraphCanvas::choose_color);
+    menu.addAction(tr("Link from here…"), this, &GraphCanvas::link_by_search);
+    menu.addAction(tr("Take out of its links"), this, &GraphCanvas::take_out_selected);
+    menu.addAction(tr("Group in a frame"), this, &GraphCanvas::group_in_frame);
+    menu.addSeparator();
+    menu.addAction(tr("Cut"), this, &GraphCanvas::cut_selected);
+    menu.addAction(tr("Copy"), this, &GraphCanvas::copy_selected);
+    menu.addAction(tr("Duplicate"), this, &GraphCanvas::duplicate);
+    menu.addAction(tr("Delete"), this, &GraphCanvas::remove_selected);
+  } else {
+    menu.addAction(tr("Add a node…"), this, [this, at] { search_to_add(at); });
+    menu.addAction(tr("Add a note"), this, &GraphCanvas::add_note);
+    menu.addAction(tr("Paste"), this, &GraphCanvas::paste);
+    menu.addSeparator();
+    menu.addAction(tr("Arrange"), this, &GraphCanvas::arrange);
+    menu.addAction(tr("Show all"), this, &GraphCanvas::frame_all);
+  }
+  menu.exec(event->globalPos());
+}
+
+void GraphCanvas::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void GraphCanvas::dropEvent(QDropEvent* event) {
+  QPointF at = to_graph(event->position());
+  for (const QUrl& url : event->mimeData()->urls()) {
+    const QString path = url.toLocalFile();
+    if (path.isEmpty()) continue;
+    if (path.endsWith(".kg.json")) {
+      emit file_dropped(path);
+      return;
+    }
+    add("Load", at, {}, {{"file", Json(session_.written_path(path).toStdString())}});
+    at += QPointF(0, 140);
+  }
+  event->acceptProposedAction();
+}
+
+QString GraphCanvas::node_tip(const SceneNode& node) const {
+  const NodeType* type = session_.registry().find(node.type);
+  QString tip = "<b>" + QString::fromStdString(node.name).toHtmlEscaped() + "</b> · " +
+                QString::fromStdString(node.type).toHtmlEscaped();
+  if (type) tip += "<br>" + QString::fromStdString(type->help).toHtmlEscaped();
+  if (!node.note.isEmpty()) tip += "<br><i>" + node.note.toHtmlEscaped() + "</i>";
+  const auto say = [&](const Diagnostic& d) {
+    tip += "<br>• " + QString::fromStdString(d.message).toHtmlEscaped();
+    if (!d.hint.empty()) tip += " – " + QString::fromStdString(d.hint).toHtmlEscaped();
+  };
+  for (const Diagnostic& d : session_.problems())
+    if (d.node == node.name) say(d);
+  if (const NodeStatus* status = evaluation_.status(node.name)) {
+    tip += "<br>" + shown_state(status->state);
+    if (status->state == NodeStatus::State::done) {
+      tip += " · " + shown_seconds(status->seconds);
+      if (status->cached == "memory" || status->cached == "disk") tip += tr(" · from the cache");
+    }
+    for (const Diagnostic& d : status->diagnostics) say(d);
+  }
+  return tip;
+}
+
+QString GraphCanvas::tool_tip(QPointF view) const {
+  if (gesture_) return {};
+  const QPointF at = to_graph(view);
+  if (const SceneNode* node = scene_.node_at(at)) return node_tip(*node);
+  return {};
+}
+
+bool GraphCanvas::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip) {
+    auto* help = static_cast<QHelpEvent*>(event);
+    QToolTip::showText(help->globalPos(), tool_tip(help->pos()), this);
+    return true;
+  }
+  // Tab adds a node here and doesn't leave the canvas; Ctrl+Tab and Shift+Tab do.
+  if (event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Tab &&
+      static_cast<QKeyEvent*>(event)->modifiers() == Qt::NoModifier) {
+    add_by_search();
+    return true;
+  }
+  return QWidget::event(event);
+}
+
+void GraphCanvas::keyPressEvent(QKeyEvent* event) {
+  const bool control = event->modifiers() & Qt::ControlModifier;
+  switch (event->key()) {
+    case Qt::Key_Escape:
+      if (gesture_) {
+        gesture_->cancel();
+        gesture_.reset();
+        unsetCursor();
+        rebuild();
+      } else {
+        session_.select({});
+        select_decor({}, {});
+      }
+      return;
+    case Qt::Key_Space:
+      if (event->isAutoRepeat()) return;
+      space_ = true;
+      setCursor(Qt::OpenHandCursor);
+      return;
+    case Qt::Key_Left: return control ? nudge(-1, 0) : walk(-1, 0);
+    case Qt::Key_Right: return control ? nudge(1, 0) : walk(1, 0);
+    case Qt::Key_Up: return control ? nudge(0, -1) : walk(0, -1);
+    case Qt::Key_Down: return control ? nudge(0, 1) : walk(0, 1);
+    case Qt::Key_Plus:
+    case Qt::Key_Equal: return zoom_at(QRectF(rect()).center(), 1);
+    case Qt::Key_Minus: return zoom_at(QRectF(rect()).center(), -1);
+    default: QWidget::keyPressEvent(event);
+  }
+}
+
+void GraphCanvas::keyReleaseEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Space && !event->isAutoRepeat()) {
+    space_ = false;
+    unsetCursor();
+  }
+  QWidget::keyReleaseEvent(event);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,213 @@
+// Drawing the canvas: pictures of nodes and polylines; smooth lines once the view rests.
+#include <QPainterPath>
+#include <cmath>
+
+#include "gui/canvas/graph_canvas.h"
+
+namespace kinegraph {
+namespace {
+
+constexpr double budget_while_moving_ms = 6;
+
+QFont ui_font(double pixels, bool bold = false) {
+  QFont font;
+  font.setPixelSize(int(std::lround(pixels)));
+  font.setBold(bold);
+  return font;
+}
+
+}  // namespace
+
+void GraphCanvas::paintEvent(QPaintEvent*) {
+  QPainter p(this);
+  p.fillRect(rect(), theme_->canvas);
+  const QRectF seen(to_graph({-20, -20}), to_graph({width() + 20.0, height() + 20.0}));
+  paint_grid(p);
+  p.setRenderHint(QPainter::Antialiasing, resting_);
+  paint_frames(p);
+  paint_wires(p, seen);
+  paint_nodes(p, seen);
+  if (gesture_) gesture_->paint(p);
+  p.setRenderHint(QPainter::Antialiasing, true);
+  if (scene_.nodes().empty() && scene_.notes().empty()) paint_empty_hint(p);
+  paint_mini_map(p);
+  paint_hint(p);
+  if (hasFocus()) {
+    p.setRenderHint(QPainter::Antialiasing, false);
+    p.setPen(QPen(theme_->accent, 1));
+    p.setBrush(Qt::NoBrush);
+    p.drawRect(rect().adjusted(0, 0, -1, -1));
+  }
+  if (pixmaps_.ran_out() && resting_) QTimer::singleShot(0, this, qOverload<>(&QWidget::update));
+}
+
+void GraphCanvas::paint_grid(QPainter& p) {
+  double step = 40 * zoom_;
+  while (step < 20) step *= 4;
+  p.setPen(QPen(theme_->grid, 1));
+  const double x0 = std::fmod(pan_.x(), step), y0 = std::fmod(pan_.y(), step);
+  QList<QLineF> lines;
+  for (double x = x0; x < width(); x += step) lines << QLineF(std::round(x), 0, std::round(x), height());
+  for (double y = y0; y < height(); y += step) lines << QLineF(0, std::round(y), width(), std::round(y));
+  p.drawLines(lines);
+}
+
+void GraphCanvas::paint_frames(QPainter& p) {
+  const double lettering = std::clamp(14 * zoom_, 10.0, 22.0);
+  for (const SceneFrame& frame : scene_.frames()) {
+    const QRectF box(to_view(frame.rect.topLeft()), to_view(frame.rect.bottomRight()));
+    if (!box.intersects(QRectF(rect()))) continue;
+    QColor color = frame.color.isEmpty() ? theme_->faint_text : QColor(frame.color);
+    if (!color.isValid()) color = theme_->faint_text;
+    QColor fill = color;
+    fill.setAlpha(26);
+    const bool chosen = selected_frames_.count(frame.name);
+    p.setPen(QPen(chosen ? theme_->accent : color, chosen ? 2 : 1));
+    p.setBrush(fill);
+    p.drawRoundedRect(box, 8, 8);
+    p.setFont(ui_font(lettering, true));
+    p.setPen(theme_->text);
+    p.drawText(QRectF(box.left() + 10, box.top(), box.width() - 20, 30 * zoom_ < lettering + 4 ? lettering + 4 : 30 * zoom_),
+               Qt::AlignVCenter | Qt::TextSingleLine, frame.title);
+  }
+  for (const SceneNote& note : scene_.notes()) {
+    const QRectF box(to_view(note.rect.topLeft()), to_view(note.rect.bottomRight()));
+    if (!box.intersects(QRectF(rect()))) continue;
+    QColor fill = theme_->warning;
+    fill.setAlpha(theme_->dark ? 40 : 50);
+    const bool chosen = selected_notes_.count(note.name);
+    p.setPen(QPen(chosen ? theme_->accent : theme_->warning, chosen ? 2 : 1));
+    p.setBrush(fill);
+    p.drawRoundedRect(box, 4, 4);
+    if (zoom_ < 0.3) continue;
+    p.setFont(ui_font(std::max(9.0, 12 * zoom_)));
+    p.setPen(theme_->text);
+    p.save();
+    p.setClipRect(box);
+    p.drawText(box.adjusted(8 * zoom_, 6 * zoom_, -8 * zoom_, -6 * zoom_), Qt::TextWordWrap,
+               note.text.isEmpty() ? tr("(empty note: double-click to write)") : note.text);
+    p.restore();
+    if (chosen) {
+      p.setPen(QPen(theme_->accent, 1.5));
+      p.drawLine(box.bottomRight() - QPointF(10, 2), box.bottomRight() - QPointF(2, 10));
+      p.drawLine(box.bottomRight() - QPointF(6, 2), box.bottomRight() - QPointF(2, 6));
+    }
+  }
+}
+
+void GraphCanvas::paint_wires(QPainter& p, const QRectF& seen) {
+  const double width = std::clamp(2.2 * zoom_, 1.0, 3.0);
+  QPolygonF line;
+  for (const SceneWire& wire : scene_.wires()) {
+    if (!wire.bounds.intersects(seen)) continue;
+    QColor color = wire.type.empty() ? theme_->wire : theme_->port(wire.type);
+    const SceneNode* to = scene_.node(wire.to);
+    const bool chosen = session_.selected().count(wire.from) || session_.selected().count(wire.to);
+    if (to && !to->enabled) color.setAlphaF(0.45f);
+    p.setPen(QPen(color, chosen ? width * 1.5 : width));
+    line.clear();
+    // A picture of a curve that is a few pixels long needs no twenty pieces.
+    const qsizetype stride = zoom_ < 0.4 && !resting_ ? 4 : zoom_ < 0.3 ? 2 : 1;
+    for (qsizetype i = 0; i < wire.line.size(); i += stride) line << to_view(wire.line[i]);
+    if ((wire.line.size() - 1) % stride) line << to_view(wire.line.back());
+    p.drawPolyline(line);
+  }
+}
+
+void GraphCanvas::paint_nodes(QPainter& p, const QRectF& seen) {
+  pixmaps_.begin(zoom_, devicePixelRatioF(), resting_ ? 40 : budget_while_moving_ms);
+  for (const SceneNode& node : scene_.nodes()) {
+    if (!node.rect.adjusted(-8, -8, 8, 8).intersects(seen)) continue;
+    const NodeStatus* status = evaluation_.status(node.name);
+    const QPointF at = to_view(node.rect.topLeft());
+    pixmaps_.draw(p, at, node, status, problem_of(node.name), *theme_);
+    const QRectF box(at, node.rect.size() * zoom_);
+    if (status && status->state == NodeStatus::State::running && !node.dot) {
+      const double full = box.width() - 12 * zoom_;
+      p.fillRect(QRectF(box.left() + 6 * zoom_, box.bottom() - 4 * zoom_, full, std::max(2.0, 2.5 * zoom_)), theme_->line);
+      p.fillRect(QRectF(box.left() + 6 * zoom_, box.bottom() - 4 * zoom_, full * status->progress, std::max(2.0, 2.5 * zoom_)),
+                 theme_->running);
+    }
+    if (session_.selected().count(node.name)) {
+      const bool current = session_.current() == node.name;
+      p.setPen(QPen(theme_->accent, current ? 2.5 : 1.5));
+      p.setBrush(Qt::NoBrush);
+      p.drawRoundedRect(box.adjusted(-2, -2, 2, 2), 7 * zoom_, 7 * zoom_);
+    }
+  }
+  if (hover_ && !gesture_) {
+    if (const SceneNode* node = scene_.node(hover_->node))
+      if (const ScenePort* port = node->port(hover_->input, hover_->port)) {
+        p.setRenderHint(QPainter::Antialiasing);
+        draw_port(p, to_view(node->rect.topLeft() + port->at), 7 * std::max(0.6, zoom_), Theme::shape(port->type),
+                  port->type.empty() ? theme_->wire : theme_->port(port->type), theme_->canvas, true);
+      }
+  }
+}
+
+void GraphCanvas::paint_mini_map(QPainter& p) {
+  const QRectF map = mini_map_rect();
+  if (map.isNull()) return;
+  QColor back = theme_->panel;
+  back.setAlpha(225);
+  p.setPen(QPen(theme_->line, 1));
+  p.setBrush(back);
+  p.drawRoundedRect(map, 5, 5);
+  const QRectF inside = map.adjusted(6, 6, -6, -6), all = scene_.bounds();
+  const double scale = std::min(inside.width() / all.width(), inside.height() / all.height());
+  const auto place = [&](QPointF graph) { return inside.center() + (graph - all.center()) * scale; };
+  p.save();
+  p.setClipRect(map.adjusted(1, 1, -1, -1));
+  p.setRenderHint(QPainter::Antialiasing, false);
+  for (const SceneNode& node : scene_.nodes()) {
+    const QRectF box(place(node.rect.topLeft()), QSizeF(std::max(2.0, node.rect.width() * scale), std::max(2.0, node.rect.height() * scale)));
+    p.fillRect(box, session_.selected().count(node.name) ? theme_->accent : theme_->wire);
+  }
+  p.setPen(QPen(theme_->accent, 1));
+  p.setBrush(Qt::NoBrush);
+  p.drawRect(QRectF(place(to_graph({0, 0})), place(to_graph({double(width()), double(height())}))));
+  p.restore();
+}
+
+void GraphCanvas::paint_empty_hint(QPainter& p) {
+  const QRectF box = QRectF(rect()).adjusted(20, 20, -20, -20);
+  const QPointF middle = box.center();
+  p.setPen(theme_->text);
+  p.setFont(ui_font(19, true));
+  p.drawText(QRectF(box.left(), middle.y() - 92, box.width(), 30), Qt::AlignCenter, tr("This graph is empty"));
+  const std::pair<QString, QString> lines[] = {
+      {tr("Tab"), tr("add a node by its name")},
+      {tr("Drop"), tr("a motion file here to load it")},
+      {tr("Ctrl+O"), tr("open a graph")},
+      {tr("Files"), tr("has examples to start from")},
+  };
+  double y = middle.y() - 46;
+  p.setFont(ui_font(13));
+  for (const auto& [key, what] : lines) {
+    const QRectF cap(middle.x() - 130, y, 62, 24);
+    p.setPen(QPen(theme_->line, 1));
+    p.setBrush(theme_->panel);
+    p.drawRoundedRect(cap, 4, 4);
+    p.setPen(theme_->text);
+    p.drawText(cap, Qt::AlignCenter, key);
+    p.setPen(theme_->faint_text);
+    p.drawText(QRectF(cap.right() + 14, y, 260, 24), Qt::AlignVCenter, what);
+    y += 32;
+  }
+}
+
+void GraphCanvas::paint_hint(QPainter& p) {
+  if (hint_.isEmpty()) return;
+  p.setFont(ui_font(12));
+  const QRectF text = QFontMetricsF(p.font()).boundingRect(QRectF(0, 0, 320, 400), Qt::TextWordWrap, hint_);
+  QRectF box(hint_at_ + QPointF(16, 18), text.size() + QSizeF(18, 10));
+  if (box.right() > width() - 6) box.moveRight(width() - 6);
+  if (box.bottom() > height() - 6) box.moveBottom(hint_at_.y() - 10);
+  p.setPen(QPen(hint_refused_ ? theme_->error : theme_->line, 1));
+  p.setBrush(theme_->raised);
+  p.drawRoundedRect(box, 4, 4);
+  p.setPen(hint_refused_ ? theme_->error : theme_->text);
+  p.drawText(box.adjusted(9, 5, -9, -5), Qt::TextWordWrap, hint_);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,260 @@
+#include "gui/canvas/node_painter.h"
+
+#include <QPainterPath>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace kinegraph {
+namespace {
+
+constexpr double corner = 6;
+
+QFont font_of(double pixels, bool bold = false) {
+  QFont font;
+  font.setPixelSize(std::max(1, int(std::lround(pixels))));
+  font.setBold(bold);
+  font.setHintingPreference(QFont::PreferNoHinting);
+  return font;
+}
+
+void draw_text(QPainter& p, const QRectF& box, Qt::Alignment align, const QString& text) {
+  p.drawText(box, int(align | Qt::AlignVCenter | Qt::TextSingleLine),
+             QFontMetricsF(p.font()).elidedText(text, Qt::ElideRight, box.width()));
+}
+
+QPolygonF ring_of_corners(int corners, double radius, double turned) {
+  QPolygonF polygon;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = turned + 2 * std::numbers::pi * i / corners;
+    polygon << QPointF(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return polygon;
+}
+
+// The families have a colour each, a thin bar above the title, so that a graph's parts are told apart from afar.
+QColor family_color(const Theme& theme, const SceneNode& node) {
+  if (!node.color.isEmpty()) {
+    const QColor own(node.color);
+    if (own.isValid()) return own;
+  }
+  if (node.missing) return theme.missing;
+  static const std::map<std::string, const char*> types{
+      {"files", "Metrics"}, {"motion", "Motion"},       {"time", "Warp"},         {"style", "Stats"},
+      {"feet", "Contacts"}, {"components", "Components"}, {"cartoon", "Character"}, {"judge", "Points"}};
+  auto found = types.find(node.category);
+  return found == types.end() ? theme.wire : theme.port(found->second);
+}
+
+void draw_badge(QPainter& p, QPointF centre, const QColor& color, const QColor& ink, const QString& sign) {
+  p.setPen(Qt::NoPen);
+  p.setBrush(color);
+  p.drawEllipse(centre, 7, 7);
+  p.setPen(ink);
+  p.setFont(font_of(11, true));
+  p.drawText(QRectF(centre - QPointF(7, 7.5), QSizeF(14, 14)), Qt::AlignCenter, sign);
+}
+
+void draw_dot(QPainter& p, const SceneNode& node, const Theme& theme) {
+  const std::string& type = node.outputs.front().type;
+  p.setPen(QPen(theme.node_line, 1));
+  p.setBrush(type.empty() ? theme.wire : theme.port(type));
+  p.drawEllipse(QPointF(10, 10), 8, 8);
+}
+
+}  // namespace
+
+void draw_port(QPainter& p, QPointF at, double r, Theme::Shape shape, const QColor& color, const QColor& hole,
+               bool filled) {
+  p.save();
+  p.translate(at);
+  p.setPen(QPen(color, r * 0.36));
+  p.setBrush(filled ? color : hole);
+  using Shape = Theme::Shape;
+  switch (shape) {
+    case Shape::circle: p.drawEllipse(QPointF(), r, r); break;
+    case Shape::ring:
+      p.drawEllipse(QPointF(), r, r);
+      p.setBrush(filled ? hole : color);
+      p.setPen(Qt::NoPen);
+      p.drawEllipse(QPointF(), r * 0.4, r * 0.4);
+      break;
+    case Shape::square: p.drawRect(QRectF(-r * 0.9, -r * 0.9, r * 1.8, r * 1.8)); break;
+    case Shape::diamond: p.drawPolygon(ring_of_corners(4, r * 1.2, 0)); break;
+    case Shape::triangle: p.drawPolygon(ring_of_corners(3, r * 1.25, 0)); break;
+    case Shape::hexagon: p.drawPolygon(ring_of_corners(6, r * 1.1, 0)); break;
+    case Shape::bar: p.drawRect(QRectF(-r * 0.55, -r * 1.15, r * 1.1, r * 2.3)); break;
+    case Shape::star: {
+      QPolygonF star;
+      for (int i = 0; i < 10; ++i) {
+        const double angle = std::numbers::pi * (i / 5.0 - 0.5), reach = i % 2 ? r * 0.6 : r * 1.35;
+        star << QPointF(reach * std::cos(angle), reach * std::sin(angle));
+      }
+      p.drawPolygon(star);
+      break;
+    }
+  }
+  p.restore();
+}
+
+QString shown_seconds(double seconds) {
+  if (seconds < 0.0005) return "<1 ms";
+  if (seconds < 1) return QString("%1 ms").arg(std::lround(seconds * 1000));
+  if (seconds < 60) return QString("%1 s").arg(seconds, 0, 'f', 1);
+  return QString("%1 min").arg(seconds / 60, 0, 'f', 1);
+}
+
+QString shown_state(NodeStatus::State state) {
+  using State = NodeStatus::State;
+  switch (state) {
+    case State::idle: return QObject::tr("not asked for");
+    case State::waiting: return QObject::tr("waiting");
+    case State::running: return QObject::tr("running");
+    case State::done: return QObject::tr("up to date");
+    case State::failed: return QObject::tr("failed");
+    case State::blocked: return QObject::tr("blocked");
+    case State::cancelled: return QObject::tr("cancelled");
+    case State::disabled: return QObject::tr("disabled");
+    case State::missing: return QObject::tr("missing");
+  }
+  return {};
+}
+
+QColor state_color(const Theme& theme, NodeStatus::State state) {
+  using State = NodeStatus::State;
+  switch (state) {
+    case State::running: return theme.running;
+    case State::done: return theme.good;
+    case State::failed: return theme.error;
+    case State::blocked: return theme.warning;
+    case State::missing: return theme.missing;
+    default: return theme.faint_text;
+  }
+}
+
+void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std::optional<Severity> problem,
+               const Theme& theme, double zoom) {
+  p.save();
+  p.scale(zoom, zoom);
+  if (node.dot) {
+    draw_dot(p, node, theme);
+    p.restore();
+    return;
+  }
+  using State = NodeStatus::State;
+  const State state = node.missing ? State::missing : !node.enabled ? State::disabled : status ? status->state : State::idle;
+  const QRectF box(QPointF(0.5, 0.5), node.rect.size() - QSizeF(1, 1));
+  const QColor family = family_color(theme, node);
+  const bool small = zoom < 0.6;
+
+  QPainterPath outline;
+  outline.addRoundedRect(box, corner, corner);
+  QColor body = theme.node;
+  if (!node.enabled) body.setAlphaF(0.55f);
+  p.fillPath(outline, body);
+  p.save();
+  p.setClipPath(outline);
+  QColor title = theme.node_title;
+  if (!node.color.isEmpty() && QColor(node.color).isValid()) {
+    const QColor own(node.color);
+    title = QColor::fromRgbF(title.redF() * 0.65f + own.redF() * 0.35f, title.greenF() * 0.65f + own.greenF() * 0.35f,
+                             title.blueF() * 0.65f + own.blueF() * 0.35f);
+  }
+  if (!node.enabled) title.setAlphaF(0.55f);
+  if (small) {
+    p.fillRect(box, title);
+  } else {
+    p.fillRect(QRectF(0, 0, box.width() + 1, 40), title);
+  }
+  p.fillRect(QRectF(0, 0, box.width() + 1, small ? 3 / zoom : 3), family);
+  p.restore();
+  const bool bad = state == State::failed || problem == Severity::error;
+  QPen edge(bad ? theme.error : state == State::missing ? theme.missing : theme.node_line, bad ? 1.6 : 1.2);
+  if (state == State::missing || !node.enabled) edge.setStyle(Qt::DashLine);
+  p.setPen(edge);
+  p.setBrush(Qt::NoBrush);
+  p.drawPath(outline);
+
+  const QColor ink = node.enabled ? theme.text : theme.faint_text;
+  const QString name = QString::fromStdString(node.name);
+  if (small) {
+    // As large as the box lets it be, at least 9 pixels on the screen.
+    const double pixels = std::clamp(13.0, 9.5 / zoom, 40.0);
+    p.setFont(font_of(pixels, true));
+    p.setPen(ink);
+    draw_text(p, box.adjusted(8, 4, -8, 0), Qt::AlignHCenter, name);
+    const double dot = 4 / zoom;
+    if (state != State::idle) {
+      p.setPen(Qt::NoPen);
+      p.setBrush(state_color(theme, state));
+      p.drawEllipse(QPointF(box.right() - 2 * dot, box.bottom() - 2 * dot), dot, dot);
+    }
+  } else {
+    p.setFont(font_of(13, true));
+    p.setPen(ink);
+    draw_text(p, QRectF(12, 5, box.width() - 40, 18), Qt::AlignLeft, name);
+    p.setFont(font_of(11));
+    p.setPen(theme.faint_text);
+    QString right;
+    if (state == State::done && status)
+      right = status->cached == "memory" || status->cached == "disk" ? QObject::tr("cached") : shown_seconds(status->seconds);
+    else if (state != State::idle)
+      right = shown_state(state);
+    const double right_width = right.isEmpty() ? 0 : QFontMetricsF(p.font()).horizontalAdvance(right) + 4;
+    draw_text(p, QRectF(12, 21, box.width() - 28 - right_width, 16), Qt::AlignLeft,
+              QString::fromStdString(node.type));
+    if (!right.isEmpty()) {
+      if (state == State::failed || state == State::blocked || state == State::missing) p.setPen(state_color(theme, state));
+      draw_text(p, QRectF(box.width() - 12 - right_width, 21, right_width, 16), Qt::AlignRight, right);
+    }
+    const QPointF badge(box.width() - 16, 14);
+    if (bad)
+      draw_badge(p, badge, theme.error, theme.node, "!");
+    else if (problem == Severity::warning ||
+             (status && std::any_of(status->diagnostics.begin(), status->diagnostics.end(),
+                                    [](const Diagnostic& d) { return d.severity == Severity::warning; })))
+      draw_badge(p, badge, theme.warning, theme.node, "!");
+    else if (state != State::idle) {
+      p.setPen(Qt::NoPen);
+      p.setBrush(state_color(theme, state));
+      p.drawEllipse(badge, 4, 4);
+    }
+    p.setFont(font_of(11.5));
+    for (const bool input : {true, false})
+      for (const ScenePort& port : input ? node.inputs : node.outputs) {
+        p.setPen(port.linked || !port.optional ? ink : theme.faint_text);
+        const double half = node.inputs.empty() || node.outputs.empty() ? box.width() - 24 : box.width() / 2 - 10;
+        const QRectF label(input ? 12 : box.width() - 12 - half, port.at.y() - 9, half, 18);
+        draw_text(p, label, input ? Qt::AlignLeft : Qt::AlignRight,
+                  QString::fromStdString(port.name) + (port.list ? " …" : ""));
+      }
+    if (node.expandable) {
+      p.setPen(theme.faint_text);
+      p.setFont(font_of(11));
+      draw_text(p, node.more.adjusted(12, 0, -12, 0), Qt::AlignHCenter,
+                node.expanded ? QObject::tr("show fewer") : QObject::tr("+ %1 more ports").arg(node.hidden_ports));
+    }
+    if (!node.values.empty()) {
+      double y = box.height() - 5 - 17.0 * double(node.values.size());
+      p.setPen(QPen(theme.line, 1));
+      p.drawLine(QPointF(8, y - 3), QPointF(box.width() - 8, y - 3));
+      p.setFont(font_of(11));
+      for (const SceneValue& value : node.values) {
+        const double name_width = std::min(QFontMetricsF(p.font()).horizontalAdvance(value.name) + 8, 84.0);
+        p.setPen(theme.faint_text);
+        draw_text(p, QRectF(12, y, name_width, 17), Qt::AlignLeft, value.name);
+        p.setPen(ink);
+        draw_text(p, QRectF(12 + name_width, y, box.width() - 24 - name_width, 17), Qt::AlignRight, value.value);
+        y += 17;
+      }
+    }
+  }
+  const double radius = small ? std::min(5.0, 3.2 / zoom) : 5;
+  for (const bool input : {true, false})
+    for (const ScenePort& port : input ? node.inputs : node.outputs)
+      draw_port(p, port.at, radius, Theme::shape(port.type), port.type.empty() ? theme.wire : theme.port(port.type),
+                theme.canvas, port.linked);
+  p.restore();
+}
+
+}  // namespace kinegraph

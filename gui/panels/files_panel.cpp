@@ -1,0 +1,134 @@
+#include "gui/panels/files_panel.h"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QDirIterator>
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QMimeData>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include "gui/window/icons.h"
+#include "gui/window/settings.h"
+
+namespace kinegraph {
+namespace {
+
+constexpr int most_clips = 500;
+constexpr int path_role = Qt::UserRole;
+
+const QStringList& clip_endings() {
+  static const QStringList endings{"*.bvh", "*.amc", "*.c3d", "*.trc", "*.glb", "*.gltf", "*.fbx"};
+  return endings;
+}
+
+// Files leave it as paths, so that any program takes them.
+class FileTree : public QTreeWidget {
+ public:
+  using QTreeWidget::QTreeWidget;
+
+ protected:
+  QMimeData* mimeData(const QList<QTreeWidgetItem*>& items) const override {
+    QList<QUrl> urls;
+    for (const QTreeWidgetItem* item : items)
+      if (const QString path = item->data(0, path_role).toString(); !path.isEmpty()) urls << QUrl::fromLocalFile(path);
+    if (urls.isEmpty()) return nullptr;
+    auto* paths = new QMimeData;
+    paths->setUrls(urls);
+    return paths;
+  }
+};
+
+}  // namespace
+
+QString examples_folder() {
+  QDir folder(QCoreApplication::applicationDirPath());
+  for (int up = 0; up < 5; ++up) {
+    for (const char* name : {"graphs", "share/kinegraph/graphs"})
+      if (QDir(folder.filePath(name)).entryList({"*.kg.json"}).size()) return folder.filePath(name);
+    if (!folder.cdUp()) break;
+  }
+  return {};
+}
+
+FilesPanel::FilesPanel(Session& session, QWidget* parent)
+    : QWidget(parent), session_(session), theme_(&dark_theme()), filter_(new QLineEdit(this)), tree_(new FileTree(this)) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(8, 8, 8, 8);
+  filter_->setPlaceholderText(tr("Filter by name"));
+  filter_->setAccessibleName(tr("Filter files by name"));
+  filter_->setClearButtonEnabled(true);
+  tree_->setObjectName("file_tree");
+  tree_->setAccessibleName(tr("Files"));
+  tree_->setHeaderHidden(true);
+  tree_->setDragEnabled(true);
+  tree_->setDragDropMode(QAbstractItemView::DragOnly);
+  tree_->setTextElideMode(Qt::ElideMiddle);
+  column->addWidget(filter_);
+  column->addWidget(tree_, 1);
+  connect(filter_, &QLineEdit::textChanged, this, &FilesPanel::fill);
+  connect(tree_, &QTreeWidget::itemActivated, this, [this](QTreeWidgetItem* item) {
+    const QString path = item->data(0, path_role).toString();
+    if (path.endsWith(".kg.json"))
+      emit open_graph(path);
+    else if (!path.isEmpty())
+      emit add_clip(path);
+  });
+  connect(&session_, &Session::file_changed, this, [this] {
+    if (folder_ != session_.folder()) fill();
+  });
+  fill();
+}
+
+void FilesPanel::set_theme(const Theme& theme) {
+  theme_ = &theme;
+  fill();
+}
+
+void FilesPanel::fill() {
+  folder_ = session_.folder();
+  tree_->clear();
+  const QString wanted = filter_->text().trimmed();
+  const auto section = [this](const QString& title) {
+    auto* item = new QTreeWidgetItem(tree_, {title});
+    QFont bold = font();
+    bold.setBold(true);
+    item->setFont(0, bold);
+    item->setFlags(Qt::ItemIsEnabled);
+    return item;
+  };
+  const auto add = [&](QTreeWidgetItem* parent, const QString& path, const QString& shown, Sign sign) {
+    if (!wanted.isEmpty() && !shown.contains(wanted, Qt::CaseInsensitive)) return;
+    auto* item = new QTreeWidgetItem(parent, {shown});
+    item->setData(0, path_role, path);
+    item->setToolTip(0, QDir::toNativeSeparators(path));
+    item->setIcon(0, icon(sign, *theme_));
+  };
+  auto* recent = section(tr("Recent graphs"));
+  for (const QString& path : user_settings()->value("recent").toStringList())
+    if (QFile::exists(path)) add(recent, path, QFileInfo(path).fileName(), Sign::open);
+  auto* examples = section(tr("Examples"));
+  const QString folder = examples_folder();
+  if (!folder.isEmpty())
+    for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"}, QDir::Files, QDir::Name))
+      add(examples, file.absoluteFilePath(), file.fileName().remove(".kg.json").replace('_', ' '), Sign::open);
+  // The clips beside the graph, or of the examples where there is no graph.
+  const QString clips = session_.path().isEmpty() ? folder : folder_;
+  auto* found = section(tr("Clips"));
+  if (!clips.isEmpty()) {
+    QDirIterator files(clips, clip_endings(), QDir::Files, QDirIterator::Subdirectories);
+    QStringList paths;
+    while (files.hasNext() && paths.size() < most_clips) paths << files.next();
+    paths.sort();
+    for (const QString& path : paths) add(found, path, QDir(clips).relativeFilePath(path), Sign::clip);
+  }
+  for (QTreeWidgetItem* item : {recent, examples, found}) {
+    item->setExpanded(true);
+    if (item->childCount()) continue;
+    auto* none = new QTreeWidgetItem(item, {wanted.isEmpty() ? tr("none yet") : tr("none of that name")});
+    none->setFlags(Qt::NoItemFlags);
+  }
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,37 @@
+// The Files dock: graphs opened before, examples, and the clips beside the graph. A graph opens, a clip becomes a Load
+// by dragging it onto the canvas or by Enter.
+#pragma once
+#include <QTreeWidget>
+#include <QWidget>
+
+#include "gui/document/session.h"
+#include "gui/window/theme.h"
+
+class QLineEdit;
+
+namespace kinegraph {
+
+class FilesPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit FilesPanel(Session& session, QWidget* parent = nullptr);
+  void set_theme(const Theme& theme);
+
+ signals:
+  void open_graph(const QString& path);
+  void add_clip(const QString& path);
+
+ private:
+  void fill();
+  Session& session_;
+  const Theme* theme_;
+  QLineEdit* filter_;
+  QTreeWidget* tree_;
+  QString folder_;
+};
+
+// Where the examples lie: beside the program or in its source tree; "" = nowhere.
+QString examples_folder();
+
+}  // namespace kinegraph

@@ -1,0 +1,142 @@
+// A number: a slider over its soft range, and a line that takes arithmetic and any value of the hard range.
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSlider>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/panels/arithmetic.h"
+#include "gui/panels/param_field.h"
+
+namespace kinegraph {
+namespace {
+
+constexpr int slider_steps = 1000;
+
+class CalmSlider : public QSlider {
+ public:
+  using QSlider::QSlider;
+
+ protected:
+  void wheelEvent(QWheelEvent* event) override { event->ignore(); }
+};
+
+class NumberField : public ParamField {
+ public:
+  NumberField(const Param& param, QWidget* parent) : ParamField(parent), type_(param), line_(new QLineEdit(this)) {
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(6);
+    const QString name = QString::fromStdString(param.name);
+    if (!std::isnan(param.soft_min) && !std::isnan(param.soft_max)) {
+      slider_ = new CalmSlider(Qt::Horizontal, this);
+      slider_->setRange(0, whole() && span() <= slider_steps ? int(span()) : slider_steps);
+      slider_->setAccessibleName(QObject::tr("%1 slider").arg(name));
+      slider_->setFocusPolicy(Qt::StrongFocus);
+      slider_->setMinimumWidth(60);
+      row->addWidget(slider_, 1);
+      connect(slider_, &QSlider::sliderPressed, this, [this] { emit drag_started(); });
+      connect(slider_, &QSlider::sliderReleased, this, [this] { emit drag_ended(); });
+      connect(slider_, &QSlider::valueChanged, this, [this](int at) {
+        if (!showing_) send(from_slider(at));
+      });
+    }
+    line_->setAccessibleName(name);
+    line_->setAlignment(Qt::AlignRight);
+    line_->installEventFilter(this);
+    if (slider_)
+      line_->setFixedWidth(76);
+    row->addWidget(line_, slider_ ? 0 : 1);
+    auto* unit = new QLabel(QString::fromStdString(param.unit), this);
+    unit->setObjectName("faint");
+    if (slider_) unit->setMinimumWidth(30);
+    if (slider_ || !param.unit.empty()) row->addWidget(unit);
+    setFocusProxy(line_);
+    connect(line_, &QLineEdit::editingFinished, this, [this] {
+      if (line_->text() == shown_) return;
+      QString why;
+      if (const auto value = typed_value(type_, line_->text(), &why)) {
+        emit edited(*value);
+      } else if (line_->text().startsWith("${")) {
+        emit edited(Json(line_->text().toStdString()));
+      } else {
+        emit wrong(why);
+        line_->setText(shown_);
+      }
+    });
+  }
+
+  void show_value(const Json& value) override {
+    showing_ = true;
+    shown_ = typed_text(value);
+    line_->setText(shown_);
+    line_->setCursorPosition(0);
+    if (slider_) {
+      slider_->setEnabled(value.is_number());
+      if (value.is_number() && !slider_->isSliderDown())
+        slider_->setValue(int(std::lround((std::clamp(value.number(), type_.soft_min, type_.soft_max) - type_.soft_min) /
+                                          span() * slider_->maximum())));
+    }
+    showing_ = false;
+  }
+  bool is_being_edited() const override { return line_->hasFocus() && line_->text() != shown_; }
+
+ protected:
+  // Up and down change the number by a step of the slider.
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::KeyPress) {
+      const int key = static_cast<QKeyEvent*>(event)->key();
+      if (key == Qt::Key_Up || key == Qt::Key_Down) {
+        const auto now = calculated(line_->text());
+        if (now) send(std::clamp(rounded(*now + (key == Qt::Key_Up ? step() : -step())), type_.min, type_.max));
+        return true;
+      }
+      if (key == Qt::Key_Escape) {
+        line_->setText(shown_);
+        return true;
+      }
+    }
+    return ParamField::eventFilter(watched, event);
+  }
+
+ private:
+  bool whole() const { return type_.kind == ParamType::Kind::integer; }
+  double span() const { return type_.soft_max - type_.soft_min; }
+  double step() const {
+    if (whole() || !slider_) return 1;
+    return std::pow(10.0, std::floor(std::log10(span() / 50)));
+  }
+  // To a step that reads well: 0.35, not 0.3487.
+  double rounded(double value) const {
+    if (whole()) return std::round(value);
+    const double grid = slider_ ? std::pow(10.0, std::floor(std::log10(span() / 200))) : 1e-6;
+    const double steps = std::round(value / grid);
+    return grid < 1 ? steps / std::round(1 / grid) : steps * grid;
+  }
+  double from_slider(int at) const {
+    return std::clamp(rounded(type_.soft_min + span() * at / slider_->maximum()), type_.soft_min, type_.soft_max);
+  }
+  void send(double value) {
+    const Json json = value;
+    shown_ = typed_text(json);
+    line_->setText(shown_);
+    emit edited(json);
+  }
+
+  ParamType type_;
+  QSlider* slider_ = nullptr;
+  QLineEdit* line_;
+  QString shown_;
+  bool showing_ = false;
+};
+
+}  // namespace
+
+ParamField* make_number_field(const Param& param, QWidget* parent) {
+  return new NumberField(param, parent);
+}
+
+}  // namespace kinegraph

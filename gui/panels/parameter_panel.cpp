@@ -1,0 +1,343 @@
+#include "gui/panels/parameter_panel.h"
+
+#include <QCheckBox>
+#include <QEvent>
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QScrollArea>
+#include <QStackedLayout>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "gui/canvas/node_painter.h"
+#include "gui/viewer/looked_at.h"
+#include "nodes/motion/motion.h"
+
+namespace kinegraph {
+namespace {
+
+constexpr int label_width = 108;
+
+QLabel* faint_label(const QString& text, QWidget* parent) {
+  auto* label = new QLabel(text, parent);
+  label->setObjectName("faint");
+  label->setWordWrap(true);
+  return label;
+}
+
+bool is_wide(const Param& param) {
+  return param.kind == ParamType::Kind::list || param.kind == ParamType::Kind::table;
+}
+
+}  // namespace
+
+ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget* parent)
+    : QWidget(parent), session_(session), evaluation_(evaluation), theme_(&dark_theme()) {
+  setMinimumWidth(300);
+  auto* stack = new QStackedLayout(this);
+  auto* none = faint_label(tr("Select a node to see its parameters."), this);
+  none->setAlignment(Qt::AlignCenter);
+  none_ = none;
+  some_ = new QWidget(this);
+  stack->addWidget(none_);
+  stack->addWidget(some_);
+  auto* column = new QVBoxLayout(some_);
+  column->setContentsMargins(10, 10, 10, 8);
+  column->setSpacing(6);
+
+  auto* head = new QGridLayout;
+  head->setHorizontalSpacing(8);
+  head->setVerticalSpacing(5);
+  name_ = new QLineEdit(some_);
+  name_->setObjectName("node_name");
+  name_->setAccessibleName(tr("Name of the node"));
+  enabled_ = new QCheckBox(tr("Enabled"), some_);
+  enabled_->setAccessibleName(tr("Enabled"));
+  note_ = new QLineEdit(some_);
+  note_->setAccessibleName(tr("Note"));
+  note_->setPlaceholderText(tr("note"));
+  type_label_ = new QLabel(some_);
+  type_label_->setWordWrap(true);
+  type_label_->setTextFormat(Qt::RichText);
+  head->addWidget(name_, 0, 0);
+  head->addWidget(enabled_, 0, 1);
+  head->addWidget(type_label_, 1, 0, 1, 2);
+  head->addWidget(note_, 2, 0, 1, 2);
+  column->addLayout(head);
+  state_ = new QLabel(some_);
+  state_->setObjectName("node_state");
+  state_->setWordWrap(true);
+  state_->setTextFormat(Qt::RichText);
+  state_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  column->addWidget(state_);
+
+  scroll_ = new QScrollArea(some_);
+  scroll_->setObjectName("parameter_rows");
+  scroll_->setWidgetResizable(true);
+  scroll_->setFrameShape(QFrame::NoFrame);
+  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll_->setFocusPolicy(Qt::NoFocus);
+  column->addWidget(scroll_, 1);
+  help_ = faint_label({}, some_);
+  help_->setAlignment(Qt::AlignTop);
+  help_->setFixedHeight(fontMetrics().lineSpacing() * 3 + 4);
+  column->addWidget(help_);
+
+  connect(name_, &QLineEdit::editingFinished, this, [this] {
+    const std::string wanted = name_->text().trimmed().toStdString(), before = node_;
+    if (wanted.empty() || wanted == before) return;
+    if (session_.perform([&](const Document& d, const Registry&) { return rename_node(d, before, wanted); }))
+      session_.select({wanted}, wanted);
+    else
+      name_->setText(QString::fromStdString(before));
+  });
+  connect(enabled_, &QCheckBox::clicked, this, [this](bool on) {
+    session_.perform([&](const Document& d, const Registry&) { return set_enabled(d, node_, on); });
+  });
+  connect(note_, &QLineEdit::editingFinished, this, [this] {
+    auto found = session_.document().nodes.find(node_);
+    if (found == session_.document().nodes.end() || found->second.note == note_->text().toStdString()) return;
+    session_.perform([&](const Document& d, const Registry&) { return set_note(d, node_, note_->text().toStdString()); });
+  });
+  connect(&session_, &Session::selection_changed, this, &ParameterPanel::show_node);
+  connect(&session_, &Session::changed, this, &ParameterPanel::show_node);
+  connect(&session_, &Session::problems_changed, this, &ParameterPanel::refresh_state);
+  connect(&evaluation_, &Evaluation::status_changed, this, [this](const QString& node) {
+    if (node.toStdString() == node_) refresh_state();
+  });
+  show_node();
+}
+
+void ParameterPanel::set_theme(const Theme& theme) {
+  theme_ = &theme;
+  refresh();
+}
+
+const NodeType* ParameterPanel::type() const {
+  auto found = session_.document().nodes.find(node_);
+  if (found == session_.document().nodes.end() || found->second.missing) return nullptr;
+  return session_.registry().find(found->second.type);
+}
+
+void ParameterPanel::show_node() {
+  node_ = session_.current();
+  const auto found = session_.document().nodes.find(node_);
+  const bool some = found != session_.document().nodes.end();
+  static_cast<QStackedLayout*>(layout())->setCurrentIndex(some ? 1 : 0);
+  static_cast<QLabel*>(none_)->setText(session_.selected().size() > 1 ? tr("%1 nodes are selected.").arg(session_.selected().size())
+                                                                     : tr("Select a node to see its parameters."));
+  if (!some) return;
+  if (found->second.type != node_type_ || found->second.missing) {
+    node_type_ = found->second.type;
+    rows_.clear();
+    scroll_->setWidget(nullptr);
+    if (const NodeType* known = type()) {
+      build(*known);
+    } else {
+      node_type_.clear();
+      scroll_->setWidget(faint_label(tr("This node's type is not known to this Kinegraph. It is kept as it is and saved "
+                                        "back unchanged; install the version that made it to run it."), nullptr));
+    }
+  }
+  refresh();
+}
+
+void ParameterPanel::build(const NodeType& known) {
+  auto* inside = new QWidget;
+  auto* column = new QVBoxLayout(inside);
+  column->setContentsMargins(0, 4, 2, 4);
+  column->setSpacing(5);
+  FieldContext context;
+  context.folder = session_.folder();
+  context.written_path = [this](const QString& path) { return session_.written_path(path); };
+  context.joints = [this] { return joints(); };
+  for (const Param& param : known.params) {
+    const std::string name = param.name;
+    Row row;
+    row.line = new QWidget(inside);
+    auto* grid = new QGridLayout(row.line);
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setHorizontalSpacing(6);
+    grid->setVerticalSpacing(2);
+    row.label = new QLabel(QString::fromStdString(name), row.line);
+    row.label->setFixedWidth(label_width);
+    row.label->setToolTip(QString::fromStdString(param.help));
+    row.field = make_field(param, context, row.line);
+    row.field->setObjectName("param_" + QString::fromStdString(name));
+    row.field->setToolTip(QString::fromStdString(param.help));
+    row.label->setBuddy(row.field);
+    row.menu = new QToolButton(row.line);
+    row.menu->setObjectName("row_menu");
+    row.menu->setText("⋯");
+    row.menu->setFixedWidth(24);
+    row.menu->setAccessibleName(tr("More for %1").arg(QString::fromStdString(name)));
+    row.menu->setToolTip(tr("Reset, publish, help"));
+    if (is_wide(param)) {
+      grid->addWidget(row.label, 0, 0);
+      grid->addWidget(row.menu, 0, 2);
+      grid->addWidget(row.field, 1, 0, 1, 3);
+      grid->setColumnStretch(1, 1);
+    } else {
+      grid->addWidget(row.label, 0, 0);
+      grid->addWidget(row.field, 0, 1);
+      grid->addWidget(row.menu, 0, 2);
+      grid->setColumnStretch(1, 1);
+    }
+    for (QWidget* child : row.line->findChildren<QWidget*>()) {
+      child->installEventFilter(this);
+      child->setProperty("help", QString::fromStdString(param.help));
+    }
+    connect(row.field, &ParamField::edited, this, [this, name](const Json& value) { set(name, value); });
+    connect(row.field, &ParamField::drag_started, &session_, &Session::begin_gesture);
+    connect(row.field, &ParamField::drag_ended, &session_, &Session::end_gesture);
+    connect(row.field, &ParamField::wrong, this, [this, name](const QString& why) {
+      help_->setText(QString("<span style='color:%1'>%2</span>").arg(theme_->error.name(), (QString::fromStdString(name) + ": " + why).toHtmlEscaped()));
+    });
+    QToolButton* button = row.menu;
+    connect(button, &QToolButton::clicked, this, [this, name, button] { open_menu(name, button); });
+    column->addWidget(row.line);
+    rows_[name] = row;
+  }
+  if (known.params.empty()) column->addWidget(faint_label(tr("%1 has no parameters.").arg(QString::fromStdString(known.name)), inside));
+  column->addStretch(1);
+  scroll_->setWidget(inside);
+  help_->clear();
+}
+
+void ParameterPanel::refresh() {
+  auto found = session_.document().nodes.find(node_);
+  if (found == session_.document().nodes.end()) return;
+  const Node& node = found->second;
+  if (!name_->hasFocus()) name_->setText(QString::fromStdString(node_));
+  if (!note_->hasFocus()) note_->setText(QString::fromStdString(node.note));
+  enabled_->setChecked(node.enabled);
+  enabled_->setEnabled(!node.missing);
+  const NodeType* known = type();
+  type_label_->setText(QString("<b>%1</b> <span style='color:%2'>%3</span>")
+                           .arg(QString::fromStdString(node.type).toHtmlEscaped(), theme_->faint_text.name(),
+                                known ? QString::fromStdString(known->help).toHtmlEscaped() : QString()));
+  for (auto& [name, row] : rows_) {
+    const Param* param = known ? known->find_param(name) : nullptr;
+    if (!param) continue;
+    auto stored = node.params.find(name);
+    const bool own = stored != node.params.end();
+    const Json value = own ? stored->second : param->fallback.value_or(Json());
+    if (!row.field->is_being_edited()) row.field->show_value(value);
+    QFont font = row.label->font();
+    font.setBold(own && !is_default(*param, value));
+    row.label->setFont(font);
+    const std::string published = published_as(name);
+    row.label->setText(QString::fromStdString(name) + (published.empty() ? "" : " ↗"));
+  }
+  refresh_state();
+}
+
+void ParameterPanel::refresh_state() {
+  QString text;
+  const auto say = [&](const Diagnostic& problem) {
+    const QColor color = problem.severity == Severity::error     ? theme_->error
+                         : problem.severity == Severity::warning ? theme_->warning
+                                                                 : theme_->faint_text;
+    QString line = QString::fromStdString(problem.message).toHtmlEscaped();
+    if (const std::string& where = problem.param.empty() ? problem.port : problem.param; !where.empty())
+      line = "<b>" + QString::fromStdString(where).toHtmlEscaped() + "</b>: " + line;
+    if (!problem.hint.empty()) line += " – <i>" + QString::fromStdString(problem.hint).toHtmlEscaped() + "</i>";
+    line = QString("<div style='color:%1'>%2</div>").arg(color.name(), line);
+    if (!text.contains(line)) text += line;
+  };
+  for (const Diagnostic& problem : session_.problems())
+    if (problem.node == node_) say(problem);
+  if (const NodeStatus* status = evaluation_.status(node_))
+    for (const Diagnostic& problem : status->diagnostics) say(problem);
+  state_->setText(text);
+  state_->setVisible(!text.isEmpty());
+}
+
+void ParameterPanel::set(const std::string& param, const Json& value) {
+  const std::string node = node_;
+  const NodeType* known = type();
+  const Param* description = known ? known->find_param(param) : nullptr;
+  if (!description) return;
+  session_.perform([&](const Document& d, const Registry& r) {
+    if (!(value.is_string() && value.string().starts_with("${")) && is_default(*description, value) &&
+        !has_error(check(*description, value, param)))
+      return reset_param(d, node, param);
+    return set_param(d, r, node, param, value);
+  });
+}
+
+std::string ParameterPanel::published_as(const std::string& param) const {
+  for (const auto& [name, targets] : session_.document().publish.params)
+    for (const Link& target : targets)
+      if (target.node == node_ && target.port == param) return name;
+  return {};
+}
+
+void ParameterPanel::publish(const std::string& param, bool on) {
+  const std::string node = node_;
+  session_.perform([&](const Document& document, const Registry&) {
+    if (!on) {
+      const std::string name = published_as(param);
+      Json::Array left;
+      for (const Link& target : document.publish.params.at(name))
+        if (!(target.node == node && target.port == param)) left.push_back(to_text(target));
+      std::optional<Json> after;
+      if (left.size() == 1) after = left.front();
+      if (left.size() > 1) after = Json(std::move(left));
+      return set_unit(document, {Unit::Kind::publish_param, name, {}}, after, "Unpublish " + param);
+    }
+    std::string name = param == "file" ? node : param;
+    if (document.publish.params.count(name)) name = node + "_" + param;
+    return set_unit(document, {Unit::Kind::publish_param, name, {}}, Json(node + "." + param), "Publish " + param);
+  });
+}
+
+void ParameterPanel::open_menu(const std::string& param, QToolButton* button) {
+  const NodeType* known = type();
+  const Param* description = known ? known->find_param(param) : nullptr;
+  if (!description) return;
+  QMenu menu(this);
+  const auto& node = session_.document().nodes.at(node_);
+  QAction* reset = menu.addAction(tr("Reset to default (%1)").arg(typed_text(description->fallback.value_or(Json())).left(30)), this, [this, param] {
+    session_.perform([&](const Document& d, const Registry&) { return reset_param(d, node_, param); });
+  });
+  reset->setEnabled(node.params.count(param) > 0);
+  const std::string published = published_as(param);
+  menu.addAction(published.empty() ? tr("Publish") : tr("Unpublish (%1)").arg(QString::fromStdString(published)), this,
+                 [this, param, on = published.empty()] { publish(param, on); });
+  menu.addAction(tr("Help"), this, [this, description] {
+    QString text = QString::fromStdString(description->help).toHtmlEscaped() + "<br>" +
+                   QString::fromStdString(described(*description)).toHtmlEscaped();
+    for (const ParamType::Choice& choice : description->choices)
+      text += "<br><b>" + QString::fromStdString(choice.key).toHtmlEscaped() + "</b>: " + QString::fromStdString(choice.help).toHtmlEscaped();
+    help_->setText(text);
+    help_->setFixedHeight(std::max(fontMetrics().lineSpacing() * 3 + 4, help_->heightForWidth(help_->width()) + 4));
+  });
+  menu.exec(button->mapToGlobal(QPoint(0, button->height())));
+}
+
+bool ParameterPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::FocusIn || event->type() == QEvent::Enter) {
+    if (const QVariant help = watched->property("help"); help.isValid()) {
+      help_->setFixedHeight(fontMetrics().lineSpacing() * 3 + 4);
+      help_->setText(help.toString().toHtmlEscaped());
+    }
+    if (event->type() == QEvent::FocusIn)
+      if (auto* widget = qobject_cast<QWidget*>(watched)) scroll_->ensureWidgetVisible(widget, 10, 10);
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+std::vector<std::pair<std::string, int>> ParameterPanel::joints() const {
+  std::vector<std::pair<std::string, int>> found;
+  const auto target = nearest_output(session_.document(), session_.registry(), node_, {"Motion"});
+  if (!target) return found;
+  const auto motion = std::dynamic_pointer_cast<const Motion>(evaluation_.value(target->node, target->port));
+  if (!motion) return found;
+  for (const Joint& joint : motion->skeleton().joints) found.emplace_back(joint.name, joint.parent);
+  return found;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,66 @@
+// The Parameters dock: the current node's parameters, made from its type's description. Changes apply while dragging,
+// one gesture is one undo step.
+#pragma once
+#include <QWidget>
+#include <map>
+
+#include "gui/document/session.h"
+#include "gui/evaluation/evaluation.h"
+#include "gui/panels/param_field.h"
+#include "gui/window/theme.h"
+
+class QCheckBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QScrollArea;
+class QToolButton;
+
+namespace kinegraph {
+
+class ParameterPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  ParameterPanel(Session& session, Evaluation& evaluation, QWidget* parent = nullptr);
+  void set_theme(const Theme& theme);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  struct Row {
+    ParamField* field = nullptr;
+    QLabel* label = nullptr;
+    QToolButton* menu = nullptr;
+    QWidget* line = nullptr;
+  };
+  void show_node();
+  void build(const NodeType& type);
+  void refresh();
+  void refresh_state();
+  void open_menu(const std::string& param, QToolButton* button);
+  void set(const std::string& param, const Json& value);
+  void publish(const std::string& param, bool on);
+  std::string published_as(const std::string& param) const;
+  std::vector<std::pair<std::string, int>> joints() const;
+  const NodeType* type() const;
+
+  Session& session_;
+  Evaluation& evaluation_;
+  const Theme* theme_;
+  std::string node_;       // shown
+  std::string node_type_;  // whose rows are built
+  std::map<std::string, Row> rows_;
+  QWidget* none_;
+  QWidget* some_;
+  QLineEdit* name_;
+  QLabel* type_label_;
+  QCheckBox* enabled_;
+  QLineEdit* note_;
+  QLabel* state_;
+  QScrollArea* scroll_;
+  QLabel* help_;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,36 @@
+// The Problems dock: everything that is wrong or worth knowing, of the graph's structure and of its evaluation. A click
+// goes to the node; the hint says what to do.
+#pragma once
+#include <QTreeWidget>
+#include <QWidget>
+
+#include "gui/document/session.h"
+#include "gui/evaluation/evaluation.h"
+#include "gui/window/theme.h"
+
+class QLabel;
+
+namespace kinegraph {
+
+class ProblemsPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  ProblemsPanel(Session& session, Evaluation& evaluation, QWidget* parent = nullptr);
+  void set_theme(const Theme& theme);
+
+ signals:
+  void go_to(const QString& node);
+  void counted(int errors, int warnings);
+
+ private:
+  void fill();
+  Session& session_;
+  Evaluation& evaluation_;
+  const Theme* theme_;
+  QTreeWidget* list_;
+  QLabel* none_;
+  QTimer due_;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,102 @@
+#include "gui/window/icons.h"
+
+#include <QPainter>
+#include <QPainterPath>
+#include <QPixmap>
+
+namespace kinegraph {
+namespace {
+
+// In a square of 16 units.
+void draw(QPainter& p, Sign sign, const Theme& theme) {
+  switch (sign) {
+    case Sign::run:
+      p.setBrush(theme.good);
+      p.setPen(Qt::NoPen);
+      p.drawPolygon(QPolygonF({{4, 2.5}, {13.5, 8}, {4, 13.5}}));
+      break;
+    case Sign::stop:
+      p.setBrush(p.pen().color());
+      p.setPen(Qt::NoPen);
+      p.drawRoundedRect(QRectF(4, 4, 8, 8), 1, 1);
+      break;
+    case Sign::undo:
+    case Sign::redo: {
+      if (sign == Sign::redo) {
+        p.translate(16, 0);
+        p.scale(-1, 1);
+      }
+      QPainterPath path(QPointF(3, 6.5));
+      path.lineTo(10, 6.5);
+      path.cubicTo(14.5, 6.5, 14.5, 13, 10, 13);
+      path.lineTo(6, 13);
+      p.drawPath(path);
+      p.drawPolyline(QPolygonF({{6.5, 3}, {3, 6.5}, {6.5, 10}}));
+      break;
+    }
+    case Sign::add:
+      p.drawLine(QPointF(8, 3), QPointF(8, 13));
+      p.drawLine(QPointF(3, 8), QPointF(13, 8));
+      break;
+    case Sign::theme:
+      p.drawEllipse(QPointF(8, 8), 5, 5);
+      p.setBrush(p.pen().color());
+      p.drawChord(QRectF(3, 3, 10, 10), 90 * 16, 180 * 16);
+      break;
+    case Sign::open:
+    case Sign::folder:
+      p.drawPolygon(QPolygonF({{2, 4}, {6, 4}, {7.5, 5.5}, {14, 5.5}, {14, 12.5}, {2, 12.5}}));
+      break;
+    case Sign::save:
+      p.drawLine(QPointF(8, 2.5), QPointF(8, 9.5));
+      p.drawPolyline(QPolygonF({{5, 7}, {8, 10}, {11, 7}}));
+      p.drawPolyline(QPolygonF({{2.5, 10.5}, {2.5, 13.5}, {13.5, 13.5}, {13.5, 10.5}}));
+      break;
+    case Sign::reset:
+      p.drawArc(QRectF(3.5, 3.5, 9, 9), 60 * 16, 280 * 16);
+      p.drawPolyline(QPolygonF({{9.5, 1.8}, {10.6, 4.4}, {8, 5.6}}));
+      break;
+    case Sign::publish:
+      p.drawEllipse(QPointF(4, 8), 2, 2);
+      p.drawLine(QPointF(6.5, 8), QPointF(13, 8));
+      p.drawPolyline(QPolygonF({{10, 5}, {13, 8}, {10, 11}}));
+      break;
+    case Sign::clip:
+      p.drawEllipse(QPointF(8, 3.5), 1.7, 1.7);
+      p.drawLine(QPointF(8, 5.5), QPointF(8, 9.5));
+      p.drawPolyline(QPolygonF({{4, 7.5}, {8, 6.5}, {12, 7.5}}));
+      p.drawPolyline(QPolygonF({{5, 14}, {8, 9.5}, {11, 14}}));
+      break;
+    case Sign::remove:
+      p.drawLine(QPointF(4, 4), QPointF(12, 12));
+      p.drawLine(QPointF(12, 4), QPointF(4, 12));
+      break;
+    case Sign::tree:
+      p.drawPolyline(QPolygonF({{3.5, 3}, {3.5, 12.5}, {7, 12.5}}));
+      p.drawLine(QPointF(3.5, 7.5), QPointF(7, 7.5));
+      p.drawLine(QPointF(9, 7.5), QPointF(13, 7.5));
+      p.drawLine(QPointF(9, 12.5), QPointF(13, 12.5));
+      break;
+  }
+}
+
+}  // namespace
+
+QIcon icon(Sign sign, const Theme& theme) {
+  QIcon made;
+  for (const auto mode : {QIcon::Normal, QIcon::Disabled})
+    for (const int size : {16, 32}) {
+      QPixmap pixmap(size, size);
+      pixmap.fill(Qt::transparent);
+      QPainter p(&pixmap);
+      p.setRenderHint(QPainter::Antialiasing);
+      p.scale(size / 16.0, size / 16.0);
+      if (mode == QIcon::Disabled) p.setOpacity(0.35);
+      p.setPen(QPen(theme.text, 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+      draw(p, sign, theme);
+      made.addPixmap(pixmap, mode);
+    }
+  return made;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,12 @@
+// The editor's few icons, drawn in the theme's ink so that they fit both themes and any resolution.
+#pragma once
+#include <QIcon>
+
+#include "gui/window/theme.h"
+
+namespace kinegraph {
+
+enum class Sign { run, stop, undo, redo, add, theme, open, save, reset, publish, folder, clip, remove, tree };
+QIcon icon(Sign sign, const Theme& theme);
+
+}  // namespace kinegraph

@@ -1,0 +1,216 @@
+#include "gui/window/main_window.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QLabel>
+#include <QMimeData>
+#include <QProgressBar>
+#include <QSettings>
+#include <QStatusBar>
+#include <QVBoxLayout>
+
+#include "gui/viewer/looked_at.h"
+#include "gui/window/settings.h"
+
+namespace kinegraph {
+
+MainWindow::MainWindow(const Registry& registry, const Options& options)
+    : registry_(registry),
+      options_(options),
+      session_(registry),
+      evaluation_(registry, options.cache_folder),
+      theme_(&dark_theme()),
+      canvas_(new GraphCanvas(session_, evaluation_)),
+      notice_(new NoticeBar),
+      state_text_(new QLabel),
+      hover_text_(new QLabel),
+      progress_(new QProgressBar) {
+  setObjectName("main_window");
+  setDockNestingEnabled(true);
+  setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+  setAcceptDrops(true);
+  auto* middle = new QWidget;
+  auto* column = new QVBoxLayout(middle);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(notice_);
+  column->addWidget(canvas_, 1);
+  setCentralWidget(middle);
+
+  hover_text_->setObjectName("faint");
+  hover_text_->setAccessibleName(tr("What is under the pointer"));
+  state_text_->setAccessibleName(tr("State of the evaluation"));
+  progress_->setAccessibleName(tr("Progress"));
+  progress_->setMaximumWidth(160);
+  progress_->setTextVisible(false);
+  progress_->setRange(0, 1000);
+  progress_->hide();
+  hover_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  statusBar()->addWidget(hover_text_, 1);
+  statusBar()->addPermanentWidget(state_text_);
+  statusBar()->addPermanentWidget(progress_);
+  statusBar()->setSizeGripEnabled(false);
+
+  make_docks();
+  make_actions();
+  make_menus();
+
+  connect(canvas_, &GraphCanvas::hovered_text, hover_text_, &QLabel::setText);
+  connect(canvas_, &GraphCanvas::file_dropped, this, [this](const QString& path) {
+    if (may_discard()) open(path);
+  });
+  connect(&session_, &Session::changed, this, &MainWindow::update_actions);
+  connect(&session_, &Session::selection_changed, this, &MainWindow::update_actions);
+  connect(&session_, &Session::file_changed, this, &MainWindow::update_title);
+  connect(&session_, &Session::refused, this, [this](const QString& message, const QString& hint) {
+    notice_->say(hint.isEmpty() ? message : message + " – " + hint, {}, 8);
+  });
+  // Once all docks have heard of a change, so that they are asked what they want afterwards.
+  const auto later = [this] {
+    if (evaluation_due_) return;
+    evaluation_due_ = true;
+    QMetaObject::invokeMethod(this, &MainWindow::evaluate, Qt::QueuedConnection);
+  };
+  connect(&session_, &Session::meaning_changed, this, later);
+  connect(&session_, &Session::selection_changed, this, later);
+  connect(&evaluation_, &Evaluation::busy_changed, this, &MainWindow::update_progress);
+  connect(&evaluation_, &Evaluation::status_changed, this, &MainWindow::update_progress);
+  connect(&evaluation_, &Evaluation::finished, this, [this](bool effects) {
+    update_progress();
+    if (effects) ran_effects();
+  });
+  reload_.setSingleShot(true);
+  reload_.setInterval(150);
+  connect(&watcher_, &QFileSystemWatcher::fileChanged, this, &MainWindow::file_changed_on_disk);
+  connect(&session_, &Session::meaning_changed, this, &MainWindow::watch_files);
+  connect(&reload_, &QTimer::timeout, this, &MainWindow::evaluate);
+
+  resize(1280, 800);
+  bool dark = true;
+  if (options_.remember) {
+    const auto settings = user_settings();
+    restoreGeometry(settings->value("window/geometry").toByteArray());
+    restoreState(settings->value("window/layout").toByteArray(), layout_version);
+    dark = settings->value("window/theme", "dark").toString() != "light";
+  }
+  set_theme(dark ? dark_theme() : light_theme());
+  update_title();
+  update_actions();
+  update_progress();
+  canvas_->setFocus();
+}
+
+MainWindow::~MainWindow() = default;
+
+void MainWindow::set_theme(const Theme& theme) {
+  theme_ = &theme;
+  qApp->setPalette(theme.palette());
+  qApp->setStyleSheet(theme.style_sheet());
+  canvas_->set_theme(theme);
+  for (const auto& apply_theme : themed_) apply_theme(theme);
+  update_icons();
+  emit theme_changed();
+}
+
+void MainWindow::evaluate() {
+  evaluation_due_ = false;
+  if (session_.is_read_only()) return;
+  EvaluationRequest request;
+  request.document = session_.document();
+  request.file = session_.title().toStdString();
+  request.folder = session_.folder().toStdString();
+  std::set<std::pair<std::string, std::string>> asked;
+  const auto ask = [&](const Target& target) {
+    if (asked.insert({target.node, target.port}).second) request.targets.push_back(target);
+  };
+  // The current node, so that its state is known. What writes or checks runs only with the Run button: of those what
+  // is linked to them.
+  std::string looked_at = session_.current();
+  if (looked_at.empty()) looked_at = node_to_look_at(session_.document(), registry_);
+  if (auto found = session_.document().nodes.find(looked_at); found != session_.document().nodes.end()) {
+    const NodeType* type = found->second.missing ? nullptr : registry_.find(found->second.type);
+    if (type && type->effect != Effect::none) {
+      for (const auto& [port, inputs] : found->second.inputs)
+        for (const Link& link : inputs.links) ask({link.node, link.port});
+    } else if (type) {
+      // A reader gives only what its file holds: of its many outputs those that are linked.
+      if (type->outputs.size() > 3) {
+        for (const auto& [name, node] : session_.document().nodes)
+          for (const auto& [port, inputs] : node.inputs)
+            for (const Link& link : inputs.links)
+              if (link.node == looked_at) ask({link.node, link.port});
+        if (asked.empty()) ask({looked_at, type->outputs.front().name});
+      } else {
+        ask({looked_at, ""});
+      }
+    }
+  }
+  for (const auto& wanted : wants_)
+    for (const Target& target : wanted()) ask(target);
+  evaluation_.request(std::move(request));
+}
+
+void MainWindow::update_progress() {
+  const bool busy = evaluation_.is_busy();
+  progress_->setVisible(busy);
+  actions_.at("cancel")->setEnabled(busy);
+  double sum = 0;
+  int running = 0, failed = 0, blocked = 0;
+  QString name;
+  for (const auto& [node, unused] : session_.document().nodes)
+    if (const NodeStatus* status = evaluation_.status(node)) {
+      failed += status->state == NodeStatus::State::failed;
+      blocked += status->state == NodeStatus::State::blocked;
+      if (status->state != NodeStatus::State::running) continue;
+      ++running;
+      sum += status->progress;
+      name = QString::fromStdString(node);
+    }
+  progress_->setValue(running ? int(1000 * sum / running) : 0);
+  if (busy)
+    state_text_->setText(running == 1 ? tr("%1 is running").arg(name)
+                         : running    ? tr("%1 nodes are running").arg(running)
+                                      : tr("evaluating"));
+  else if (failed)
+    state_text_->setText(failed == 1 ? tr("1 node failed") : tr("%1 nodes failed").arg(failed));
+  else if (blocked)
+    state_text_->setText(blocked == 1 ? tr("1 node is blocked") : tr("%1 nodes are blocked").arg(blocked));
+  else
+    state_text_->setText(session_.document().nodes.empty() ? tr("no nodes") : tr("up to date"));
+}
+
+void MainWindow::update_title() {
+  setWindowTitle(tr("%1[*] – Kinegraph").arg(session_.title()));
+  setWindowModified(session_.is_modified());
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  if (options_.ask && !may_discard()) {
+    event->ignore();
+    return;
+  }
+  if (options_.remember) {
+    const auto settings = user_settings();
+    settings->setValue("window/geometry", saveGeometry());
+    settings->setValue("window/layout", saveState(layout_version));
+    settings->setValue("window/theme", theme_->dark ? "dark" : "light");
+  }
+  evaluation_.cancel();
+  event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  for (const QUrl& url : event->mimeData()->urls())
+    if (url.toLocalFile().endsWith(".kg.json")) return event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  for (const QUrl& url : event->mimeData()->urls())
+    if (url.toLocalFile().endsWith(".kg.json") && may_discard()) {
+      open(url.toLocalFile());
+      return;
+    }
+}
+
+}  // namespace kinegraph

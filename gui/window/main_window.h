@@ -1,0 +1,111 @@
+// The editor's window: the canvas in the middle, docks around it, menus, toolbar, status bar; opening and saving. It
+// tells Evaluation what is looked at, and holds no logic of graphs.
+#pragma once
+#include <QFileSystemWatcher>
+#include <QMainWindow>
+#include <functional>
+#include <vector>
+
+#include "gui/canvas/graph_canvas.h"
+#include "gui/document/session.h"
+#include "gui/evaluation/evaluation.h"
+#include "gui/timeline/playback.h"
+#include "gui/window/icons.h"
+#include "gui/window/notice_bar.h"
+#include "gui/window/theme.h"
+
+class QDockWidget;
+class QLabel;
+class QProgressBar;
+
+namespace kinegraph {
+
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  struct Options {
+    bool remember = true;   // layout, theme and recent files, per user
+    bool ask = true;        // dialogs may open (not for a screenshot)
+    std::string cache_folder;  // "" = none
+  };
+  MainWindow(const Registry& registry, const Options& options);
+  ~MainWindow() override;
+
+  Session& session() { return session_; }
+  Evaluation& evaluation() { return evaluation_; }
+  Playback& playback() { return playback_; }
+  GraphCanvas& canvas() { return *canvas_; }
+  const Theme& theme() const { return *theme_; }
+
+  bool open(const QString& path);  // false: it can't be opened, and the person was told
+  void set_theme(const Theme& theme);
+  void show_dock(const QString& name);  // "Parameters"
+  QStringList dock_names() const;
+  QAction* action(const QString& name) const;  // "undo": all have one
+  bool is_evaluating() const { return evaluation_due_ || evaluation_.is_busy(); }
+
+  // Looks at what the docks and the selection want to see.
+  void evaluate();
+
+ signals:
+  void theme_changed();
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+ private:
+  // A dock with a widget, which may have set_theme(const Theme&), wanted() and wanted_changed.
+  template <class Room>
+  QDockWidget* add_room(Room* room, const QString& title, Qt::DockWidgetArea area);
+  QDockWidget* add_dock(QWidget* widget, const QString& title, Qt::DockWidgetArea area);
+  void make_docks();
+  void make_actions();
+  void make_menus();
+  QAction* make(const QString& name, const QString& text, const QKeySequence& key, std::function<void()> act,
+                QWidget* where = nullptr);
+  void update_actions();
+  void update_title();
+  void update_progress();
+  void update_icons();
+
+  void new_graph();
+  void choose_and_open();
+  bool save();
+  bool save_as();
+  bool may_discard();  // asks about unsaved changes
+  void offer_autosave();
+  void run_effects();
+  void ran_effects();
+  void remember_recent(const QString& path);
+  void fill_recent(QMenu* menu);
+  void tell(const Diagnostics& problems, const QString& title);
+  void watch_files();
+  void file_changed_on_disk(const QString& path);
+  void about();
+  void show_keys();
+
+  const Registry& registry_;
+  Options options_;
+  Session session_;
+  Evaluation evaluation_;
+  Playback playback_;
+  const Theme* theme_;
+  GraphCanvas* canvas_;
+  NoticeBar* notice_;
+  QLabel* state_text_;
+  QLabel* hover_text_;
+  QProgressBar* progress_;
+  std::map<QString, QAction*> actions_;
+  std::vector<QDockWidget*> docks_;
+  std::vector<std::function<void(const Theme&)>> themed_;
+  std::vector<std::function<std::vector<Target>()>> wants_;
+  QFileSystemWatcher watcher_;
+  QTimer reload_;
+  std::string text_on_disk_;
+  bool evaluation_due_ = false;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,78 @@
+// The docks and where they stand when nobody has moved them.
+#include <QDockWidget>
+
+#include "gui/panels/files_panel.h"
+#include "gui/panels/parameter_panel.h"
+#include "gui/panels/problems_panel.h"
+#include "gui/window/main_window.h"
+
+namespace kinegraph {
+
+QDockWidget* MainWindow::add_dock(QWidget* widget, const QString& title, Qt::DockWidgetArea area) {
+  auto* dock = new QDockWidget(title, this);
+  dock->setObjectName("dock_" + title.toLower());
+  dock->setAccessibleName(title);
+  dock->setWidget(widget);
+  dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetFloatable);
+  addDockWidget(area, dock);
+  docks_.push_back(dock);
+  return dock;
+}
+
+template <class Room>
+QDockWidget* MainWindow::add_room(Room* room, const QString& title, Qt::DockWidgetArea area) {
+  if constexpr (requires { room->set_theme(*theme_); })
+    themed_.push_back([room](const Theme& theme) { room->set_theme(theme); });
+  if constexpr (requires { room->wanted(); }) {
+    wants_.push_back([room] { return room->wanted(); });
+    connect(room, &Room::wanted_changed, this, [this] {
+      if (evaluation_due_) return;
+      evaluation_due_ = true;
+      QMetaObject::invokeMethod(this, &MainWindow::evaluate, Qt::QueuedConnection);
+    });
+  }
+  return add_dock(room, title, area);
+}
+
+void MainWindow::make_docks() {
+  setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+  setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
+  auto* parameters = new ParameterPanel(session_, evaluation_);
+  auto* files = new FilesPanel(session_);
+  auto* problems = new ProblemsPanel(session_, evaluation_);
+  QDockWidget* parameter_dock = add_room(parameters, tr("Parameters"), Qt::RightDockWidgetArea);
+  QDockWidget* files_dock = add_room(files, tr("Files"), Qt::RightDockWidgetArea);
+  tabifyDockWidget(parameter_dock, files_dock);
+  parameter_dock->raise();
+  QDockWidget* problems_dock = add_room(problems, tr("Problems"), Qt::BottomDockWidgetArea);
+  resizeDocks({parameter_dock, problems_dock}, {400, 400}, Qt::Horizontal);
+  resizeDocks({problems_dock}, {150}, Qt::Vertical);
+  connect(files, &FilesPanel::open_graph, this, [this](const QString& path) {
+    if (may_discard()) open(path);
+  });
+  connect(files, &FilesPanel::add_clip, this, [this](const QString& path) {
+    canvas_->add("Load", canvas_->to_graph(QRectF(canvas_->rect()).center() - QPointF(90, 40)), {},
+                 {{"file", Json(session_.written_path(path).toStdString())}});
+    canvas_->setFocus();
+  });
+  connect(problems, &ProblemsPanel::go_to, this, [this](const QString& node) {
+    session_.select({node.toStdString()}, node.toStdString());
+    canvas_->make_visible(node.toStdString());
+  });
+}
+
+void MainWindow::show_dock(const QString& name) {
+  for (QDockWidget* dock : docks_)
+    if (dock->windowTitle().compare(name, Qt::CaseInsensitive) == 0) {
+      dock->show();
+      dock->raise();
+    }
+}
+
+QStringList MainWindow::dock_names() const {
+  QStringList names;
+  for (QDockWidget* dock : docks_) names << dock->windowTitle();
+  return names;
+}
+
+}  // namespace kinegraph

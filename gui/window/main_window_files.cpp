@@ -1,0 +1,276 @@
+// Opening, saving, running, and what happens to files behind the editor's back.
+#include <QDir>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMenu>
+#include <QMessageBox>
+#include <QStatusBar>
+
+#include "graph/file/diff.h"
+#include "graph/file/merge.h"
+#include "graph/file/read.h"
+#include "gui/canvas/canvas_edits.h"
+#include "gui/window/main_window.h"
+#include "gui/window/settings.h"
+
+namespace kinegraph {
+namespace {
+
+constexpr int recent_files = 12;
+
+QString graph_filter() {
+  return QObject::tr("Kinegraph graphs (*.kg.json);;All files (*)");
+}
+
+QString listed(const Diagnostics& problems) {
+  QString text;
+  int shown = 0;
+  for (const Diagnostic& problem : problems) {
+    if (++shown > 12) {
+      text += QObject::tr("… and %1 more\n").arg(problems.size() - 12);
+      break;
+    }
+    text += QString::fromStdString(to_text(problem)) + "\n";
+  }
+  return text;
+}
+
+std::string bytes_of(const QString& path) {
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  return file.readAll().toStdString();
+}
+
+}  // namespace
+
+void MainWindow::tell(const Diagnostics& problems, const QString& title) {
+  if (problems.empty()) return;
+  if (!options_.ask || !isVisible()) {
+    notice_->say(title + "\n" + listed(problems));
+    return;
+  }
+  QMessageBox box(QMessageBox::Warning, tr("Kinegraph"), title, QMessageBox::Close, this);
+  box.setInformativeText(listed(problems));
+  box.exec();
+}
+
+bool MainWindow::open(const QString& path) {
+  const Diagnostics problems = session_.open(path);
+  if (has_error(problems)) {
+    tell(problems, tr("%1 can't be opened.").arg(QFileInfo(path).fileName()));
+    return false;
+  }
+  text_on_disk_ = bytes_of(session_.path());
+  watch_files();
+  remember_recent(session_.path());
+  canvas_->frame_all();
+  notice_->hide();
+  if (session_.is_read_only())
+    notice_->say(tr("%1 was made by a newer Kinegraph. It can be looked at but not changed or saved; update Kinegraph to "
+                    "work on it.").arg(session_.title()));
+  offer_autosave();
+  return true;
+}
+
+void MainWindow::offer_autosave() {
+  if (!session_.autosave_found() || session_.is_read_only()) return;
+  notice_->say(tr("Work on %1 that was never saved was found, from a session that ended unexpectedly.").arg(session_.title()),
+               {{tr("Take it up"),
+                 [this] {
+                   tell(session_.recover(), tr("The work that was found can't be read."));
+                   canvas_->frame_all();
+                 }},
+                {tr("Throw it away"), [this] { session_.discard_autosave(); }}});
+}
+
+void MainWindow::new_graph() {
+  if (!may_discard()) return;
+  session_.clear();
+  text_on_disk_.clear();
+  watch_files();
+  canvas_->frame_all();
+}
+
+void MainWindow::choose_and_open() {
+  if (!may_discard()) return;
+  const QString path = QFileDialog::getOpenFileName(this, tr("Open a graph"), session_.folder(), graph_filter());
+  if (!path.isEmpty()) open(path);
+}
+
+bool MainWindow::save() {
+  if (session_.path().isEmpty()) return save_as();
+  try {
+    session_.save();
+    text_on_disk_ = bytes_of(session_.path());
+    watch_files();
+    statusBar()->showMessage(tr("Saved"), 2000);
+    return true;
+  } catch (const Failure& failure) {
+    tell({failure.diagnostic()}, tr("%1 can't be saved.").arg(session_.title()));
+    return false;
+  }
+}
+
+bool MainWindow::save_as() {
+  QString path = QFileDialog::getSaveFileName(this, tr("Save the graph"),
+                                              session_.path().isEmpty() ? session_.folder() + "/untitled.kg.json" : session_.path(),
+                                              graph_filter());
+  if (path.isEmpty()) return false;
+  if (!path.endsWith(".kg.json")) path += path.endsWith(".kg") ? ".json" : ".kg.json";
+  try {
+    session_.save_as(path);
+    text_on_disk_ = bytes_of(session_.path());
+    watch_files();
+    remember_recent(session_.path());
+    return true;
+  } catch (const Failure& failure) {
+    tell({failure.diagnostic()}, tr("%1 can't be saved.").arg(QFileInfo(path).fileName()));
+    return false;
+  }
+}
+
+bool MainWindow::may_discard() {
+  if (!session_.is_modified() || session_.is_read_only() || !options_.ask) return true;
+  QMessageBox box(QMessageBox::Question, tr("Kinegraph"), tr("Save the changes to %1?").arg(session_.title()),
+                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
+  box.setInformativeText(tr("Without saving they are lost."));
+  box.setDefaultButton(QMessageBox::Save);
+  switch (box.exec()) {
+    case QMessageBox::Save: return save();
+    case QMessageBox::Discard: session_.discard_autosave(); return true;
+    default: return false;
+  }
+}
+
+void MainWindow::remember_recent(const QString& path) {
+  if (!options_.remember) return;
+  const auto settings = user_settings();
+  QStringList recent = settings->value("recent").toStringList();
+  recent.removeAll(path);
+  recent.prepend(path);
+  settings->setValue("recent", QStringList(recent.mid(0, recent_files)));
+}
+
+void MainWindow::fill_recent(QMenu* menu) {
+  menu->clear();
+  for (const QString& path : user_settings()->value("recent").toStringList())
+    if (QFile::exists(path))
+      menu->addAction(QDir::toNativeSeparators(path), this, [this, path] {
+        if (may_discard()) open(path);
+      });
+  if (menu->isEmpty()) menu->addAction(tr("No graph was opened yet"))->setEnabled(false);
+}
+
+void MainWindow::run_effects() {
+  if (has_error(session_.problems())) {
+    show_dock("Problems");
+    notice_->say(tr("The graph has problems that keep it from running; the Problems dock lists them."), {}, 8);
+    return;
+  }
+  EvaluationRequest request;
+  request.document = session_.document();
+  request.file = session_.title().toStdString();
+  request.folder = session_.folder().toStdString();
+  request.effects = true;
+  bool any = false;
+  for (const auto& [name, node] : session_.document().nodes) {
+    const NodeType* type = node.missing ? nullptr : registry_.find(node.type);
+    any |= type && type->effect != Effect::none && node.enabled;
+  }
+  if (!any) {
+    notice_->say(tr("There is nothing to run: Run does the Export and Check nodes. Add an Export to write a file."), {}, 8);
+    return;
+  }
+  evaluation_.request(std::move(request));
+}
+
+void MainWindow::ran_effects() {
+  const RunLog& log = evaluation_.log();
+  int passed = 0, failed_nodes = 0;
+  QString text;
+  for (const WrittenFile& file : log.files)
+    text += tr("Wrote %1. ").arg(QDir(session_.folder()).relativeFilePath(QString::fromStdString(file.path)));
+  for (const RuleRun& rule : log.rules) {
+    if (rule.passed)
+      ++passed;
+    else
+      text += tr("Check failed: %1 (measured %2). ").arg(QString::fromStdString(rule.rule)).arg(rule.value, 0, 'g', 4);
+  }
+  if (passed) text += tr("Checks passed: %1. ").arg(passed);
+  for (const auto& [name, node] : log.nodes) failed_nodes += node.state == NodeState::failed || node.state == NodeState::blocked;
+  if (log.stopped) text = tr("The run was cancelled.");
+  if (failed_nodes) text += tr("Nodes that failed or were blocked: %1.").arg(failed_nodes);
+  notice_->say(text.isEmpty() ? tr("Nothing was written.") : text.trimmed(),
+               failed_nodes ? std::vector<NoticeBar::Answer>{{tr("Show problems"), [this] { show_dock("Problems"); }}}
+                            : std::vector<NoticeBar::Answer>{});
+}
+
+void MainWindow::watch_files() {
+  QStringList wanted;
+  if (!session_.path().isEmpty()) wanted << session_.path();
+  for (const auto& [name, node] : session_.document().nodes) {
+    const NodeType* type = node.missing ? nullptr : registry_.find(node.type);
+    if (!type) continue;
+    for (const auto& [key, value] : node.params) {
+      const Param* param = type->find_param(key);
+      if (param && param->kind == ParamType::Kind::open_file && value.is_string() && !value.string().empty())
+        wanted << QDir(session_.folder()).absoluteFilePath(QString::fromStdString(value.string()));
+    }
+  }
+  wanted.removeDuplicates();
+  const QStringList watched = watcher_.files();
+  QStringList gone, fresh;
+  for (const QString& path : watched)
+    if (!wanted.contains(path)) gone << path;
+  for (const QString& path : wanted)
+    if (!watched.contains(path) && QFile::exists(path)) fresh << path;
+  if (!gone.isEmpty()) watcher_.removePaths(gone);
+  if (!fresh.isEmpty()) watcher_.addPaths(fresh);
+}
+
+void MainWindow::file_changed_on_disk(const QString& path) {
+  // A file that is written aside and renamed is a new one to the watcher.
+  QTimer::singleShot(200, this, &MainWindow::watch_files);
+  if (path != session_.path()) {
+    reload_.start();  // a clip: what depends on it is evaluated again
+    return;
+  }
+  const std::string now = bytes_of(path);
+  if (now.empty() || now == text_on_disk_ || now == session_.text()) return;
+  const ReadResult theirs = read_document(now, path.toStdString(), registry_);
+  if (has_error(theirs.problems)) {
+    notice_->say(tr("%1 changed on disk and can't be read there any more. What is open here is kept.").arg(session_.title()));
+    return;
+  }
+  const ReadResult base = read_document(text_on_disk_, path.toStdString(), registry_);
+  const Diff changed = diff(base.document, theirs.document);
+  QStringList what;
+  for (const Change& change : changed.changes) what << QString::fromStdString(to_text(change.unit));
+  const QString list = what.isEmpty() ? tr("only its layout") : QStringList(what.mid(0, 6)).join(", ") + (what.size() > 6 ? ", …" : "");
+  notice_->say(tr("%1 changed on disk: %2.").arg(session_.title(), list),
+               {{tr("Merge it in"),
+                 [this, now, base, theirs] {
+                   const Merge merged = merge(base.document, session_.document(), theirs.document, registry_, "here", "on disk");
+                   // One step that can be undone: from what is open to what was merged.
+                   session_.perform([&](const Document& document, const Registry&) {
+                     Edit edit{"Merge what changed on disk", {}};
+                     const Diff step = diff(document, merged.document);
+                     for (const auto& [from, to] : step.renames) {
+                       const Edit renamed = rename_node(document, from, to);
+                       edit = combined(std::move(edit), renamed);
+                     }
+                     for (const Change& change : step.changes) edit.changes.push_back(change);
+                     return edit;
+                   });
+                   text_on_disk_ = now;
+                   if (!merged.conflicts.empty()) {
+                     QStringList conflicts;
+                     for (const MergeConflict& one : merged.conflicts) conflicts << QString::fromStdString(one.what);
+                     notice_->say(tr("Both sides changed the same; what is open here was kept for: %1").arg(conflicts.join("; ")));
+                   }
+                 }},
+                {tr("Keep what is open"), [this, now] { text_on_disk_ = now; }}});
+}
+
+}  // namespace kinegraph

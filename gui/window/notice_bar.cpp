@@ -1,0 +1,42 @@
+#include "gui/window/notice_bar.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+
+namespace kinegraph {
+
+NoticeBar::NoticeBar(QWidget* parent) : QFrame(parent), label_(new QLabel(this)), layout_(new QHBoxLayout(this)) {
+  setObjectName("notice_bar");
+  setAccessibleName(tr("Notice"));
+  layout_->setContentsMargins(12, 6, 8, 6);
+  label_->setObjectName("notice_text");
+  label_->setWordWrap(true);
+  label_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  layout_->addWidget(label_, 1);
+  timer_.setSingleShot(true);
+  connect(&timer_, &QTimer::timeout, this, &QWidget::hide);
+  hide();
+}
+
+void NoticeBar::say(const QString& message, std::vector<Answer> answers, int seconds) {
+  for (QWidget* button : buttons_) button->deleteLater();
+  buttons_.clear();
+  label_->setText(message);
+  answers.push_back({tr("Close"), [] {}});
+  for (Answer& answer : answers) {
+    auto* button = new QPushButton(answer.text, this);
+    button->setAccessibleName(answer.text);
+    connect(button, &QPushButton::clicked, this, [this, act = std::move(answer.act)] {
+      hide();
+      act();
+    });
+    layout_->addWidget(button);
+    buttons_.push_back(button);
+  }
+  timer_.stop();
+  if (seconds) timer_.start(seconds * 1000);
+  show();
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,32 @@
+// A line across the window that says what happened and what can be done about it, without standing in the way.
+#pragma once
+#include <QFrame>
+#include <QTimer>
+#include <functional>
+#include <vector>
+
+class QLabel;
+class QHBoxLayout;
+
+namespace kinegraph {
+
+class NoticeBar : public QFrame {
+  Q_OBJECT
+
+ public:
+  struct Answer {
+    QString text;
+    std::function<void()> act;
+  };
+  explicit NoticeBar(QWidget* parent = nullptr);
+  // `seconds` 0 = until it is answered or replaced.
+  void say(const QString& message, std::vector<Answer> answers = {}, int seconds = 0);
+
+ private:
+  QLabel* label_;
+  QHBoxLayout* layout_;
+  std::vector<QWidget*> buttons_;
+  QTimer timer_;
+};
+
+}  // namespace kinegraph

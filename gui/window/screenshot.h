@@ -1,0 +1,13 @@
+// Pictures of the window for tests and documentation: everything visible evaluated, drawn at a size.
+#pragma once
+#include <QSize>
+#include <QString>
+
+#include "gui/window/main_window.h"
+
+namespace kinegraph {
+
+// Shows the window, waits until what is looked at is evaluated, writes its picture. False: it can't be written.
+bool take_screenshot(MainWindow& window, const QString& file, QSize size);
+
+}  // namespace kinegraph
