@@ -1,17 +1,352 @@
 #include "gui/components/components_panel.h"
 
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSlider>
+#include <QSpinBox>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "graph/edit.h"
+#include "gui/components/component_edits.h"
+#include "gui/components/components_grid.h"
+#include "gui/viewer/looked_at.h"
+
 namespace kinegraph {
+namespace {
+
+constexpr double slider_steps = 100;  // of a slider for 1
+
+Link link_of(const Target& target) {
+  Link link;
+  link.node = target.node;
+  link.port = target.port;
+  return link;
+}
+
+}  // namespace
 
 ComponentsPanel::ComponentsPanel(Session& session, Evaluation& evaluation, Playback& playback,
                                  QWidget* parent)
-    : QWidget(parent), session_(session), evaluation_(evaluation), playback_(playback) {
+    : QWidget(parent),
+      session_(session),
+      evaluation_(evaluation),
+      playback_(playback),
+      theme_(&dark_theme()) {
   setAccessibleName(tr("Components"));
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  pages_ = new QStackedWidget(this);
+  column->addWidget(pages_);
+  empty_ = new QLabel(this);
+  empty_->setAlignment(Qt::AlignCenter);
+  empty_->setWordWrap(true);
+  empty_->setMargin(24);
+  pages_->addWidget(empty_);
+  auto* page = new QWidget(this);
+  auto* rows = new QVBoxLayout(page);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(0);
+  auto* scroll = new QScrollArea(page);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  grid_ = new ComponentsGrid(scroll);
+  scroll->setWidget(grid_);
+  rows->addWidget(scroll, 1);
+  rows->addWidget(build_controls());
+  pages_->addWidget(page);
+
+  connect(grid_, &ComponentsGrid::chosen_changed, this, &ComponentsPanel::update_controls);
+  connect(&session_, &Session::selection_changed, this, &ComponentsPanel::find_wanted);
+  connect(&session_, &Session::meaning_changed, this, &ComponentsPanel::find_wanted);
+  connect(&evaluation_, &Evaluation::values_changed, this, &ComponentsPanel::take_values);
+  connect(&evaluation_, &Evaluation::status_changed, this, &ComponentsPanel::take_values);
+  connect(&figures_, &ComponentFigures::made, this, &ComponentsPanel::take_values);
+  set_theme(*theme_);
+  find_wanted();
 }
 
-void ComponentsPanel::set_theme(const Theme&) {}
+QSlider* ComponentsPanel::build_slider(const QString& name, double low, double high) {
+  auto* slider = new QSlider(Qt::Horizontal, this);
+  slider->setRange(static_cast<int>(low * slider_steps), static_cast<int>(high * slider_steps));
+  slider->setSingleStep(5);
+  slider->setPageStep(25);
+  slider->setAccessibleName(name);
+  connect(slider, &QSlider::sliderPressed, this, [this] { session_.begin_gesture(); });
+  connect(slider, &QSlider::sliderReleased, this, [this] { session_.end_gesture(); });
+  return slider;
+}
+
+QWidget* ComponentsPanel::build_controls() {
+  auto* box = new QWidget(this);
+  auto* grid = new QGridLayout(box);
+  grid->setContentsMargins(10, 8, 10, 8);
+  grid->setHorizontalSpacing(8);
+  grid->setVerticalSpacing(6);
+  target_ = new QLabel(box);
+  grid->addWidget(target_, 0, 0, 1, 4);
+  scale_ = build_slider(tr("Scale"), -1, 3);
+  translate_ = build_slider(tr("Translate"), -3, 3);
+  scale_value_ = new QLabel(box);
+  translate_value_ = new QLabel(box);
+  for (QLabel* label : {scale_value_, translate_value_}) label->setMinimumWidth(44);
+  take_away_ = new QPushButton(tr("Take away"), box);
+  take_away_->setToolTip(tr("Scales what is chosen to nothing"));
+  grid->addWidget(new QLabel(tr("Scale"), box), 1, 0);
+  grid->addWidget(scale_, 1, 1);
+  grid->addWidget(scale_value_, 1, 2);
+  grid->addWidget(take_away_, 1, 3);
+  grid->addWidget(new QLabel(tr("Translate"), box), 2, 0);
+  grid->addWidget(translate_, 2, 1);
+  grid->addWidget(translate_value_, 2, 2);
+  merge_ = new QPushButton(tr("Merge"), box);
+  merge_->setToolTip(tr("Makes the chosen components one; choose several with Ctrl"));
+  grid->addWidget(merge_, 2, 3);
+  from_ = new QSpinBox(box);
+  from_->setPrefix(tr("from "));
+  from_->setAccessibleName(tr("Segment that gives"));
+  to_ = new QSpinBox(box);
+  to_->setPrefix(tr("to "));
+  to_->setAccessibleName(tr("Segment that receives"));
+  transfer_ = new QPushButton(tr("Transfer"), box);
+  transfer_->setToolTip(tr("Gives the chosen components of one segment to another"));
+  auto* segments = new QHBoxLayout;
+  segments->addWidget(from_, 1);
+  segments->addWidget(to_, 1);
+  grid->addWidget(new QLabel(tr("Segment"), box), 3, 0);
+  grid->addLayout(segments, 3, 1, 1, 2);
+  grid->addWidget(transfer_, 3, 3);
+  told_ = new QLabel(box);
+  told_->setWordWrap(true);
+  grid->addWidget(told_, 4, 0, 1, 4);
+  grid->setColumnStretch(1, 1);
+
+  connect(scale_, &QSlider::valueChanged, this, [this](int at) { set_amount("scale", at / slider_steps); });
+  connect(translate_, &QSlider::valueChanged, this,
+          [this](int at) { set_amount("translate", at / slider_steps); });
+  connect(take_away_, &QPushButton::clicked, this, [this] {
+    session_.begin_gesture();
+    set_amount("scale", 0);
+    session_.end_gesture();
+  });
+  connect(merge_, &QPushButton::clicked, this, [this] { set_edits(with_merge(edits(), chosen())); });
+  connect(transfer_, &QPushButton::clicked, this,
+          [this] { set_edits(with_transfer(edits(), chosen(), from_->value(), to_->value())); });
+  return box;
+}
+
+void ComponentsPanel::set_theme(const Theme& theme) {
+  theme_ = &theme;
+  grid_->set_theme(theme);
+  for (QLabel* label : {empty_, target_, told_}) {
+    QPalette colors = label->palette();
+    colors.setColor(QPalette::WindowText, theme.faint_text);
+    label->setPalette(colors);
+  }
+}
 
 std::vector<Target> ComponentsPanel::wanted() const {
-  return wanted_;
+  if (!wanting_ || components_.node.empty()) return {};
+  return {components_};
+}
+
+void ComponentsPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  wanting_ = true;
+  find_wanted();
+  emit wanted_changed();
+}
+
+void ComponentsPanel::hideEvent(QHideEvent* event) {
+  QWidget::hideEvent(event);
+  wanting_ = false;
+  emit wanted_changed();
+}
+
+void ComponentsPanel::find_wanted() {
+  const Document& document = session_.document();
+  const Registry& registry = session_.registry();
+  const std::string& current = session_.current();
+  std::optional<Target> found;
+  auto node = document.nodes.find(current);
+  if (node != document.nodes.end()) {
+    // At an edit, what goes into it is shown: that is what its edits speak of.
+    if (node->second.type == "ComponentEdit") {
+      const std::vector<Target> inputs = linked_to(document, current, "components");
+      if (!inputs.empty()) found = inputs.front();
+    } else {
+      found = nearest_output(document, registry, current, {"Components"});
+    }
+  }
+  if (!found && document.nodes.count(components_.node)) found = components_;
+  if (!found)
+    for (const auto& [name, one] : document.nodes)
+      if (one.type != "ComponentEdit" && !found) {
+        const std::vector<Target> own = outputs_of(document, registry, name, "Components");
+        if (!own.empty() && one.type != "Load") found = own.front();
+      }
+  const Target before = components_;
+  components_ = found.value_or(Target());
+  find_edit_node();
+  take_values();
+  if (before.node != components_.node || before.port != components_.port) emit wanted_changed();
+}
+
+void ComponentsPanel::find_edit_node() {
+  const Document& document = session_.document();
+  const auto takes = [&](const std::string& name) {
+    auto node = document.nodes.find(name);
+    if (node == document.nodes.end() || node->second.type != "ComponentEdit") return false;
+    const std::vector<Target> inputs = linked_to(document, name, "components");
+    return !inputs.empty() && inputs.front().node == components_.node &&
+           inputs.front().port == components_.port;
+  };
+  if (takes(session_.current())) {
+    edit_node_ = session_.current();
+    return;
+  }
+  if (takes(edit_node_)) return;
+  edit_node_.clear();
+  if (components_.node.empty()) return;
+  for (const auto& [name, node] : document.nodes)
+    if (edit_node_.empty() && takes(name)) edit_node_ = name;
+}
+
+void ComponentsPanel::take_values() {
+  ValuePtr value;
+  if (!components_.node.empty()) value = evaluation_.value(components_.node, components_.port);
+  auto picture = figures_.find(value);
+  if (picture) {
+    grid_->set_picture(picture);
+    const int last = std::max(0, picture->segments - 1);
+    from_->setRange(0, last);
+    to_->setRange(0, last);
+    if (last > 0 && from_->value() == to_->value()) to_->setValue(from_->value() == 0 ? 1 : 0);
+  } else {
+    const NodeStatus* status = components_.node.empty() ? nullptr : evaluation_.status(components_.node);
+    if (components_.node.empty()) {
+      empty_->setText(
+          tr("No components here. Link motions to an ICA: it finds the independent movements that they "
+             "are made of, and each appears here as a small figure."));
+    } else if (status && status->state == NodeStatus::State::failed && !status->diagnostics.empty()) {
+      empty_->setText(tr("%1 failed.\n%2")
+                          .arg(QString::fromStdString(components_.node),
+                               QString::fromStdString(status->diagnostics.front().message)));
+    } else {
+      empty_->setText(tr("Finding the components of %1 …").arg(QString::fromStdString(components_.node)));
+    }
+  }
+  pages_->setCurrentIndex(picture && !components_.node.empty() ? 1 : 0);
+  update_controls();
+}
+
+std::vector<int> ComponentsPanel::chosen() const {
+  std::vector<int> numbers;
+  for (int component : grid_->chosen()) numbers.push_back(component + 1);
+  return numbers;
+}
+
+Json ComponentsPanel::edits() const {
+  auto node = session_.document().nodes.find(edit_node_);
+  if (node != session_.document().nodes.end()) {
+    auto edits = node->second.params.find("edits");
+    if (edits != node->second.params.end() && edits->second.is_array()) return edits->second;
+  }
+  return Json(Json::Array{});
+}
+
+void ComponentsPanel::set_edits(const Json& edits) {
+  const bool own_gesture = !session_.in_gesture();
+  if (own_gesture) session_.begin_gesture();
+  bool fine = true;
+  if (edit_node_.empty()) {
+    const std::string name = fresh_name(session_.document(), "ComponentEdit");
+    const Target from = components_;
+    fine = session_.perform([&](const Document& document, const Registry& registry) {
+      return add_node(document, registry, name, "ComponentEdit");
+    });
+    fine = fine && session_.perform([&](const Document& document, const Registry& registry) {
+      return connect_edit(document, registry, from, name);
+    });
+    edit_node_ = fine ? name : std::string();
+  }
+  if (fine)
+    session_.perform([&](const Document& document, const Registry& registry) {
+      return set_param(document, registry, edit_node_, "edits", edits);
+    });
+  if (own_gesture) session_.end_gesture();
+}
+
+Edit ComponentsPanel::connect_edit(const Document& document, const Registry& registry, const Target& from,
+                                   const std::string& name) {
+  Edit edit = kinegraph::connect(document, registry, link_of(from), name, "components");
+  // Beside the node whose components it edits.
+  auto place = document.ui.nodes.find(from.node);
+  if (place != document.ui.nodes.end())
+    if (const Json* at = place->second.find("pos"); at && at->is_array() && at->array().size() == 2) {
+      const Json::Array pos{Json(at->array()[0].number() + 240), Json(at->array()[1].number())};
+      edit = combined(std::move(edit), set_unit(document, {Unit::Kind::ui_node, name, ""},
+                                                Json(Json::Object{{"pos", Json(pos)}}), "Place " + name));
+    }
+  return edit;
+}
+
+void ComponentsPanel::set_amount(const char* op, double amount) {
+  Json all = edits();
+  const std::vector<int> components = chosen();
+  if (components.empty()) return;
+  for (int component : components) all = with_amount(all, op, component, amount);
+  set_edits(all);
+}
+
+void ComponentsPanel::update_controls() {
+  const Json all = edits();
+  const std::vector<int> components = chosen();
+  const bool any = !components.empty() && !session_.is_read_only();
+  for (QWidget* one : std::initializer_list<QWidget*>{scale_, translate_, take_away_}) one->setEnabled(any);
+  merge_->setEnabled(any && components.size() > 1);
+  transfer_->setEnabled(any && from_->maximum() > 0);
+  from_->setEnabled(from_->maximum() > 0);
+  to_->setEnabled(from_->maximum() > 0);
+  const double scale = any ? amount_of(all, "scale", components.front()) : 1;
+  const double translate = any ? amount_of(all, "translate", components.front()) : 0;
+  const auto show = [](QSlider* slider, double amount) {
+    if (slider->isSliderDown()) return;
+    const QSignalBlocker quiet(slider);
+    slider->setValue(static_cast<int>(std::lround(amount * slider_steps)));
+  };
+  show(scale_, scale);
+  show(translate_, translate);
+  scale_value_->setText(QString("× %1").arg(scale, 0, 'f', 2));
+  translate_value_->setText(QString("%1 σ").arg(translate, 0, 'f', 2));
+  QString which;
+  for (int component : components) which += (which.isEmpty() ? "u" : ", u") + QString::number(component);
+  const QString where = edit_node_.empty() ? tr("a new ComponentEdit") : QString::fromStdString(edit_node_);
+  target_->setText(any ? tr("%1: edits go to %2").arg(which, where)
+                       : tr("Click a component to edit it; Ctrl-click for several"));
+  const QString words = QString::fromStdString(told(all));
+  told_->setText(words);
+  told_->setVisible(!words.isEmpty());
+  std::vector<QString> badges;
+  if (auto picture = figures_.find(
+          components_.node.empty() ? nullptr : evaluation_.value(components_.node, components_.port)))
+    for (std::size_t i = 0; i < picture->figures.size(); ++i) {
+      const double times = amount_of(all, "scale", static_cast<int>(i) + 1);
+      const double plus = amount_of(all, "translate", static_cast<int>(i) + 1);
+      QString badge;
+      if (times != 1) badge += QString("× %1").arg(times, 0, 'g', 3);
+      if (plus != 0)
+        badge += QString("%1%2 %3")
+                     .arg(badge.isEmpty() ? "" : "  ", plus < 0 ? "−" : "+")
+                     .arg(std::abs(plus), 0, 'g', 3);
+      badges.push_back(badge);
+    }
+  grid_->set_badges(std::move(badges));
 }
 
 }  // namespace kinegraph

@@ -31,23 +31,45 @@ class CurvesPanel : public QWidget {
               QWidget* parent = nullptr);
 
   void set_theme(const Theme& theme);
-  std::vector<Target> wanted() const;  // the current node's outputs and the source beside them
+  // The current node's outputs and the source beside them; nothing while the dock is hidden.
+  std::vector<Target> wanted() const;
 
  signals:
   void wanted_changed();
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+
  private:
+  // What can be looked at: an output of the current node, or what leads to it.
+  struct Offer {
+    QString name;
+    std::string type;  // "Motion" (also Points), "Warp", "Stats", "Metrics"
+    Target result;
+    Target source;  // what the result is laid over; of a Warp, what was warped. Node "" = none
+    Target reference;
+  };
+  void build();
   void find_wanted();
   void take_values();
-  void fill_joints();
-  void show_what_there_is();
+  void fill_joints(const ShownMotion& motion);
+  void show_channels(const Offer& offer);
+  void show_warp(const Offer& offer);
+  void show_bars(const Offer& offer);
+  void tell(const QString& words);
+  const Offer* offer() const;
 
   Session& session_;
   Evaluation& evaluation_;
   Playback& playback_;
   Viewer& viewer_;
+  const Theme* theme_;
+  std::vector<Offer> offers_;
   std::vector<Target> wanted_;
-  Target result_, source_, analysis_;  // node "" = none
+  bool visible_ = false;
+  QString looked_at_;  // the kind of offer that was chosen last
+
   QComboBox *what_ = nullptr, *joint_ = nullptr, *channel_ = nullptr;
   QStackedWidget* pages_ = nullptr;
   QLabel* empty_ = nullptr;

@@ -6,16 +6,20 @@
 #include <cmath>
 
 #include "tests/gui/viewing_window.h"
+#include "tests/mocap.h"
 
 namespace kinegraph {
 namespace {
 
-const char* const two_walks = R"({
+const char* const five_gaits = R"({
   "format": "kinegraph",
   "schema": 1,
   "nodes": {
+    "walk": {"type": "Gait", "params": {"seconds": 4}},
+    "run": {"type": "Gait", "params": {"gait": "run", "seconds": 4}},
     "sneak": {"type": "Gait", "params": {"gait": "sneak", "seconds": 4}},
-    "walk": {"type": "Gait", "params": {"seconds": 4}}
+    "strut": {"type": "Gait", "params": {"gait": "strut", "seconds": 4}},
+    "hobble": {"type": "Gait", "params": {"gait": "hobble", "seconds": 4}}
   }
 })";
 
@@ -29,8 +33,28 @@ int pixels_like(const QImage& image, const QColor& color, int tolerance) {
   return count;
 }
 
+QPoint middle_of_stage(const Viewer& viewer) {
+  return QPoint(viewer.width() / 2, viewer.height() / 2 + 15);
+}
+
+// What a person's hand hits there.
+QWidget* widget_at(QWidget& window, QPoint at) {
+  QWidget* child = window.childAt(at);
+  return child ? child : &window;
+}
+
+void drag(QWidget* widget, QPoint from, QPoint to, Qt::MouseButton button) {
+  QTest::mousePress(widget, button, {}, from);
+  for (int i = 1; i <= 5; ++i) {
+    QMouseEvent move(QEvent::MouseMove, from + (to - from) * i / 5.0,
+                     widget->mapToGlobal(from + (to - from) * i / 5.0), Qt::NoButton, button, {});
+    QApplication::sendEvent(widget, &move);
+  }
+  QTest::mouseRelease(widget, button, {}, to);
+}
+
 TEST(Viewer, ShowsTheCurrentNodeAsALitBodyWithSides) {
-  ViewingWindow window(two_walks);
+  ViewingWindow window(five_gaits);
   ASSERT_TRUE(window.problems.empty()) << window.problems.front().message;
   window.session.select({"walk"});
   ASSERT_TRUE(window.shows_motions());
@@ -41,6 +65,133 @@ TEST(Viewer, ShowsTheCurrentNodeAsALitBodyWithSides) {
   EXPECT_GT(pixels_like(picture, dark_theme().right, 12), 300);
   window.set_theme(light_theme());
   window.keep_picture("viewer_light");
+}
+
+TEST(Viewer, SaysWhatToDoWhereThereIsNothing) {
+  ViewingWindow window(R"({"format": "kinegraph", "schema": 1, "nodes": {}})");
+  window.keep_picture("viewer_empty");
+  bool told = false;
+  for (const QLabel* label : window.viewer->findChildren<QLabel*>())
+    told = told || (label->isVisible() && label->text().contains("Load"));
+  EXPECT_TRUE(told);
+}
+
+TEST(Viewer, TurnsWithTheMouseAndFramesWithF) {
+  ViewingWindow window(five_gaits);
+  window.session.select({"walk"});
+  ASSERT_TRUE(window.shows_motions());
+  const QImage before = window.viewer->picture();
+  const QPoint at = middle_of_stage(*window.viewer);
+  QWidget* stage = widget_at(*window.viewer, at);
+  const QPoint inside = stage->mapFrom(window.viewer, at);
+  drag(stage, inside, inside + QPoint(120, 10), Qt::LeftButton);
+  EXPECT_NE(window.viewer->picture(), before);
+  const QImage turned = window.viewer->picture();
+  drag(stage, inside, inside + QPoint(60, 60), Qt::MiddleButton);
+  EXPECT_NE(window.viewer->picture(), turned);
+  QTest::keyClick(window.viewer, Qt::Key_F);
+  EXPECT_EQ(window.viewer->picture(), turned);
+}
+
+TEST(Viewer, PinsNodesToPlacesSideBySideOverlaidAndWithAWipe) {
+  ViewingWindow window(five_gaits);
+  window.viewer->setFocus();
+  window.session.select({"walk"});
+  QTest::keyClick(window.viewer, Qt::Key_1);
+  window.session.select({"sneak"});
+  QTest::keyClick(window.viewer, Qt::Key_2);
+  ASSERT_TRUE(window.shows_motions(2));
+  ASSERT_EQ(window.viewer->shown().size(), 2u);
+  EXPECT_EQ(window.viewer->shown()[0].target.node, "walk");
+  EXPECT_EQ(window.viewer->shown()[1].target.node, "sneak");
+  window.playback.set_frame(100);
+  QTest::keyClick(window.viewer, Qt::Key_F);
+  window.keep_picture("viewer_side_by_side");
+  const QImage beside = window.viewer->picture();
+  QTest::keyClick(window.viewer, Qt::Key_W);
+  EXPECT_EQ(window.viewer->arrangement(), Viewer::Arrangement::overlaid);
+  window.keep_picture("viewer_overlaid");
+  const QImage overlaid = window.viewer->picture();
+  EXPECT_NE(overlaid, beside);
+  QTest::keyClick(window.viewer, Qt::Key_W);
+  EXPECT_EQ(window.viewer->arrangement(), Viewer::Arrangement::wipe);
+  window.keep_picture("viewer_wipe");
+  EXPECT_NE(window.viewer->picture(), overlaid);
+  QTest::keyClick(window.viewer, Qt::Key_2);  // the current node again: empties its place
+  EXPECT_EQ(window.viewer->shown().size(), 1u);
+}
+
+TEST(Viewer, AddsTrailsAndGhosts) {
+  ViewingWindow window(five_gaits);
+  window.session.select({"run"});
+  ASSERT_TRUE(window.shows_motions());
+  window.playback.set_frame(200);
+  const QImage plain = window.viewer->picture();
+  QTest::keyClick(window.viewer, Qt::Key_T);
+  const QImage trails = window.viewer->picture();
+  EXPECT_NE(trails, plain);
+  QTest::keyClick(window.viewer, Qt::Key_R);  // no longer follows the root
+  QTest::keyClick(window.viewer, Qt::Key_G);
+  QTest::keyClick(window.viewer, Qt::Key_F);
+  window.keep_picture("viewer_trails_ghosts");
+  EXPECT_TRUE(window.viewer->looks().ghosts > 0);
+  EXPECT_NE(window.viewer->picture(), trails);
+}
+
+TEST(Viewer, PlaysFiveBodiesOnTheClipsClock) {
+  ViewingWindow window(five_gaits);
+  const char* const names[] = {"walk", "run", "sneak", "strut", "hobble"};
+  for (int place = 1; place <= 5; ++place) window.viewer->pin(place, names[place - 1]);
+  ASSERT_TRUE(window.shows_motions(5));
+  window.keep_picture("viewer_five");
+  window.playback.set_frame(0);
+  window.playback.set_loops(false);
+  const int drawn = window.viewer->pictures_drawn();
+  QElapsedTimer clock;
+  clock.start();
+  window.playback.play();
+  double late = 0;
+  while (clock.elapsed() < 3000) {
+    QTest::qWait(15);
+    late =
+        std::max(late, std::abs(window.playback.time() - static_cast<double>(clock.nsecsElapsed()) * 1e-9));
+  }
+  const double pictures = (window.viewer->pictures_drawn() - drawn) / 3.0;
+  RecordProperty("pictures_a_second", static_cast<int>(pictures));
+  std::printf("%.1f pictures a second, %s, clock off by %.3f s\n", pictures,
+              window.viewer->uses_opengl() ? "OpenGL" : "QPainter", late);
+  // The clock runs on whatever the machine can draw; a busy machine only draws fewer pictures.
+  window.playback.pause();
+  EXPECT_NEAR(window.playback.time(), static_cast<double>(clock.nsecsElapsed()) * 1e-9, 0.25);
+  EXPECT_GT(pictures, 1);
+}
+
+TEST(Viewer, DrawsTheSameSceneWithoutOpenGL) {
+  qputenv("KINEGRAPH_OPENGL", "0");
+  {
+    ViewingWindow window(five_gaits);
+    window.session.select({"walk"});
+    ASSERT_TRUE(window.shows_motions());
+    EXPECT_FALSE(window.viewer->uses_opengl());
+    window.playback.set_frame(40);
+    window.keep_picture("viewer_qpainter");
+    const QImage picture = window.viewer->picture();
+    EXPECT_GT(pixels_like(picture, dark_theme().left, 12), 300);
+    EXPECT_GT(pixels_like(picture, dark_theme().right, 12), 300);
+  }
+  qunsetenv("KINEGRAPH_OPENGL");
+}
+
+TEST(Viewer, ShowsARealClip) {
+  KINEGRAPH_NEEDS_MOCAP();
+  const std::string graph =
+      R"({"format": "kinegraph", "schema": 1, "nodes": {"clip": {"type": "Load", "params": {"file": ")" +
+      mocap("cmu/bvh/08_01.bvh") + R"("}}}})";
+  ViewingWindow window(graph);
+  ASSERT_TRUE(window.shows_motions());
+  window.playback.set_frame(120);
+  window.keep_picture("viewer_clip");
+  EXPECT_GT(window.viewer->shown().front().motion->contacts.points.size(), 0u);
 }
 
 }  // namespace

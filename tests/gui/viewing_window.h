@@ -2,6 +2,8 @@
 #pragma once
 #include <QApplication>
 #include <QElapsedTimer>
+#include <QLabel>
+#include <QMouseEvent>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTest>

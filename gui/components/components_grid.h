@@ -1,0 +1,66 @@
+// All components of an analysis as small playing figures with caption and signal. A click chooses one, with
+// Ctrl or Shift several; the arrow keys walk, Space chooses.
+#pragma once
+#include <QImage>
+#include <QTimer>
+#include <QWidget>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "gui/components/component_figures.h"
+#include "gui/viewer/picture_maker.h"
+#include "gui/window/theme.h"
+
+namespace kinegraph {
+
+class ComponentsGrid : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ComponentsGrid(QWidget* parent = nullptr);
+
+  void set_picture(std::shared_ptr<const ComponentPicture> picture);
+  // What the edits do to each component, shown on its tile ("x 0"); one text a component.
+  void set_badges(std::vector<QString> badges);
+  void set_theme(const Theme& theme);
+
+  const std::set<int>& chosen() const { return chosen_; }  // from 0
+  int current() const { return current_; }
+  void choose(int component, bool also);
+  QRect tile(int component) const;
+
+  bool hasHeightForWidth() const override { return true; }
+  int heightForWidth(int width) const override;
+  QSize sizeHint() const override;
+
+ signals:
+  void chosen_changed();
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  bool event(QEvent* event) override;
+
+ private:
+  int count() const { return picture_ ? static_cast<int>(picture_->figures.size()) : 0; }
+  int columns(int width) const;
+  QRect figure_part(const QRect& tile) const;
+  void ask();
+  void paint_signal(QPainter& painter, const ComponentFigure& figure, const QRectF& where);
+
+  std::shared_ptr<const ComponentPicture> picture_;
+  std::vector<QString> badges_;
+  const Theme* theme_;
+  PictureMaker maker_;
+  QImage image_;
+  QTimer playing_;
+  QElapsedTimer clock_;
+  std::set<int> chosen_;
+  int current_ = 0;
+  bool drawing_ = false;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,40 @@
+#include "gui/curves/axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinegraph {
+
+double round_step(double length, int wanted) {
+  const double least = std::max(1e-9, length / std::max(1, wanted));
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (double factor : {1.0, 2.0, 5.0})
+    if (power * factor >= least) return power * factor;
+  return power * 10;
+}
+
+void paint_axis(QPainter& painter, const QRectF& area, const Theme& theme, double frames, double low,
+                double high, const QString& unit) {
+  const double up = round_step(high - low, static_cast<int>(area.height() / 42));
+  for (double v = std::ceil(low / up) * up; v <= high; v += up) {
+    const double y = area.bottom() - (v - low) / (high - low) * area.height();
+    painter.setPen(QPen(theme.line, 1));
+    painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
+    painter.setPen(theme.faint_text);
+    painter.drawText(QRectF(0, y - 9, area.left() - 6, 18), Qt::AlignRight | Qt::AlignVCenter,
+                     QString::number(std::abs(v) < up / 1e6 ? 0.0 : v, 'g', 4));
+  }
+  const double across = std::max(1.0, round_step(frames, static_cast<int>(area.width() / 80)));
+  for (double frame = 0; frame <= frames; frame += across) {
+    const double x = area.left() + frame / std::max(1.0, frames) * area.width();
+    painter.setPen(QPen(theme.line, 1));
+    painter.drawLine(QPointF(x, area.bottom()), QPointF(x, area.bottom() + 4));
+    painter.setPen(theme.faint_text);
+    painter.drawText(QRectF(x - 40, area.bottom() + 5, 80, 18), Qt::AlignHCenter | Qt::AlignTop,
+                     QString::number(frame));
+  }
+  painter.setPen(theme.faint_text);
+  painter.drawText(QRectF(4, area.top() - 24, area.left() - 10, 18), Qt::AlignRight | Qt::AlignVCenter, unit);
+}
+
+}  // namespace kinegraph
