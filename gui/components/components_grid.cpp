@@ -117,7 +117,7 @@ void ComponentsGrid::ask() {
     const double length = figure.motion->frames / figure.motion->fps;
     add_motion(cell.scene, *figure.motion, std::fmod(seconds, std::max(0.01, length)), looks, *theme_);
     const SceneBox box = box_of(*figure.motion);
-    if (all.cells.empty()) all.camera.frame(box.low, box.high, part.size().toSize());
+    if (all.cells.empty()) all.camera.frame(box.low, box.high);
     cell.scene.camera_shift = (box.low + box.high) / 2 - all.camera.target;
     all.cells.push_back(std::move(cell));
   }

@@ -15,6 +15,7 @@
 #include "gui/viewer/looked_at.h"
 #include "nodes/judge/metrics.h"
 #include "nodes/motion/elementary.h"
+#include "nodes/motion/motion.h"
 #include "nodes/style/stats.h"
 #include "nodes/time/warp.h"
 
@@ -27,7 +28,7 @@ bool same(const Target& a, const Target& b) {
   return a.node == b.node && a.port == b.port;
 }
 
-enum Channel { position, speed };
+enum Channel { position, speed, rotation };
 
 // Series of one joint out of positions that are ready.
 std::vector<PlotSeries> series_of(const ShownMotion& motion, int point, Channel channel, const QString& whose,
@@ -43,7 +44,22 @@ std::vector<PlotSeries> series_of(const ShownMotion& motion, int point, Channel 
     one.values.reserve(frames);
     return one.values;
   };
-  if (channel == position) {
+  if (channel == rotation) {
+    // The turn from rest as a vector along its axis, in the parent's frame.
+    const auto* spoken = dynamic_cast<const Motion*>(motion.value.get());
+    if (!spoken || point >= spoken->joints()) return all;
+    all.reserve(3);
+    std::vector<float>*x = &add("x", 0), *y = &add("y", 1), *z = &add("z", 2);
+    const Quat rest = inverse(spoken->skeleton().joints[static_cast<std::size_t>(point)].rest);
+    Quat before;
+    for (std::size_t t = 0; t < frames; ++t) {
+      before = nearer(spoken->rotation(point)[t] * rest, before);
+      const Vec3 turned = 2 * degrees_per_radian * log(before);
+      x->push_back(static_cast<float>(turned.x));
+      y->push_back(static_cast<float>(turned.y));
+      z->push_back(static_cast<float>(turned.z));
+    }
+  } else if (channel == position) {
     all.reserve(3);
     std::vector<float>*x = &add("x", 0), *y = &add("y", 1), *z = &add("z", 2);
     for (int t = 0; t < motion.frames; ++t) {
@@ -103,7 +119,7 @@ void CurvesPanel::build() {
   what_ = choice(tr("What is plotted"));
   joint_ = choice(tr("Joint"));
   channel_ = choice(tr("Channel"));
-  channel_->addItems({tr("Position"), tr("Speed")});
+  channel_->addItems({tr("Position"), tr("Speed"), tr("Rotation")});
   row->addStretch(1);
   column->addLayout(row);
   pages_ = new QStackedWidget(this);
@@ -285,7 +301,8 @@ void CurvesPanel::show_channels(const Offer& offer) {
   if (!offer.source.node.empty())
     if (const auto source = viewer_.motions().find(evaluation_.value(offer.source.node, offer.source.port)))
       add(*source, QString::fromStdString(offer.source.node), true);
-  channels_->set_series(std::move(series), channel == position ? tr("m") : tr("m/s"));
+  const QString units[] = {tr("m"), tr("m/s"), QStringLiteral("°")};
+  channels_->set_series(std::move(series), units[channel]);
   pages_->setCurrentIndex(channels_page);
 }
 

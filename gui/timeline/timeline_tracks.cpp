@@ -189,7 +189,7 @@ void TimelineTracks::paint_warp(QPainter& painter, const QRectF& upper, const QR
   const double scale = playback_.fps() / warp_->fps;
   const double pixels = (x_of(1) - x_of(0)) * scale;
   const std::size_t step =
-      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(7 / std::max(0.01, pixels))));
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(12 / std::max(0.01, pixels))));
   QColor plain = theme_->port("Warp");
   for (std::size_t row = 0; row < path.size(); row += step) {
     const double source = warp_->source_warped ? path[row] : static_cast<double>(row);

@@ -52,11 +52,10 @@ void OrbitCamera::zoom(double steps) {
   distance = std::clamp(distance * static_cast<float>(std::pow(0.88, steps)), 0.05f, 400.0f);
 }
 
-void OrbitCamera::frame(QVector3D low, QVector3D high, QSizeF size) {
+void OrbitCamera::frame(QVector3D low, QVector3D high) {
   target = (low + high) / 2;
   const float radius = std::max(0.05f, (high - low).length() / 2);
-  // The field of view is that of the shorter side; a standing body fills a wide picture's height.
-  Q_UNUSED(size)
+  // The field of view is that of the picture's shorter side, so the box fits whatever its shape.
   distance = radius / std::sin(field_of_view / degrees / 2) * 1.02f;
 }
 

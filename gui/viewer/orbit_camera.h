@@ -20,10 +20,10 @@ struct OrbitCamera {
   QVector3D right() const;
   QVector3D up() const;
 
-  void orbit(QPointF pixels);                              // of the mouse
-  void pan(QPointF pixels, double height);                 // so that what is under the mouse stays there
-  void zoom(double steps);                                 // notches of a wheel; positive comes nearer
-  void frame(QVector3D low, QVector3D high, QSizeF size);  // shows the whole box
+  void orbit(QPointF pixels);                 // of the mouse
+  void pan(QPointF pixels, double height);    // so that what is under the mouse stays there
+  void zoom(double steps);                    // notches of a wheel; positive comes nearer
+  void frame(QVector3D low, QVector3D high);  // shows the whole box
   // Where a point of the world lies on a picture of this size, y down; nothing behind the eye.
   std::optional<QPointF> on_picture(QVector3D point, QSizeF size) const;
 };

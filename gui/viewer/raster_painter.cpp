@@ -40,14 +40,17 @@ QPainterPath capsule_path(QPointF a, double ra, QPointF b, double rb) {
   QPainterPath path;
   const double length = std::hypot(b.x() - a.x(), b.y() - a.y());
   if (length <= std::abs(ra - rb) + 1e-6) {
-    ra > rb ? path.addEllipse(a, ra, ra) : path.addEllipse(b, rb, rb);
+    // By hand, as all outlines must run the same way round to unite into one shadow.
+    const QPointF middle = ra > rb ? a : b;
+    const double r = std::max(ra, rb);
+    path.arcMoveTo(QRectF(middle.x() - r, middle.y() - r, 2 * r, 2 * r), 0);
+    path.arcTo(QRectF(middle.x() - r, middle.y() - r, 2 * r, 2 * r), 0, 360);
     return path;
   }
   const QPointF along = (b - a) / length;
-  const double cosine = (ra - rb) / length, sine = std::sqrt(1 - cosine * cosine);
+  const double cosine = (ra - rb) / length;
   const double tangent = std::acos(cosine) * 57.29577951308232;
   const double direction = std::atan2(-along.y(), along.x()) * 57.29577951308232;
-  Q_UNUSED(sine)
   path.arcMoveTo(QRectF(a.x() - ra, a.y() - ra, 2 * ra, 2 * ra), direction + tangent);
   path.arcTo(QRectF(a.x() - ra, a.y() - ra, 2 * ra, 2 * ra), direction + tangent, 360 - 2 * tangent);
   path.arcTo(QRectF(b.x() - rb, b.y() - rb, 2 * rb, 2 * rb), direction - tangent, 2 * tangent);

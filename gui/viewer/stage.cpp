@@ -38,6 +38,7 @@ ScenePicture Stage::picture(bool smooth) const {
 }
 
 void Stage::ask(bool moving) {
+  if (!isVisible()) return;  // a hidden dock draws nothing; showing it asks again
   maker_.request(picture(false));
   if (moving)
     rest_.stop();
@@ -110,6 +111,11 @@ void Stage::paintEvent(QPaintEvent*) {
       if (cell.clip.bottom() < 0.999) painter.drawLine(part.bottomLeft(), part.bottomRight());
     }
   }
+  if (parentWidget() && parentWidget()->hasFocus()) {
+    painter.setPen(QPen(theme_->accent, 1));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(QRectF(0.5, 0.5, width() - 1, height() - 1));
+  }
   if (has_wipe_) {
     const double x = wipe_ * width();
     painter.setPen(QPen(theme_->accent, 2));
@@ -121,6 +127,11 @@ void Stage::paintEvent(QPaintEvent*) {
 }
 
 void Stage::resizeEvent(QResizeEvent*) {
+  ask(false);
+}
+
+void Stage::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
   ask(false);
 }
 

@@ -215,7 +215,7 @@ void Viewer::frame_all() {
     }
   }
   if (first) return;
-  stage_->camera().frame(box.low, box.high, stage_->size());
+  stage_->camera().frame(box.low, box.high);
   stage_->camera_changed();
   update_scene();
 }
@@ -278,6 +278,16 @@ void Viewer::keyPressEvent(QKeyEvent* event) {
     default:
       QWidget::keyPressEvent(event);
   }
+}
+
+void Viewer::focusInEvent(QFocusEvent* event) {
+  QWidget::focusInEvent(event);
+  stage_->update();
+}
+
+void Viewer::focusOutEvent(QFocusEvent* event) {
+  QWidget::focusOutEvent(event);
+  stage_->update();
 }
 
 void Viewer::find_wanted() {

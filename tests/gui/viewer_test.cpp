@@ -182,6 +182,20 @@ TEST(Viewer, DrawsTheSameSceneWithoutOpenGL) {
   qunsetenv("KINEGRAPH_OPENGL");
 }
 
+TEST(Viewer, ShowsASkinnedCharacter) {
+  KINEGRAPH_NEEDS_MOCAP();
+  const std::string file = mocap("gltf/CesiumMan.glb");
+  ViewingWindow window(
+      R"({"format": "kinegraph", "schema": 1, "nodes": {"man": {"type": "Load", "params": {"file": ")" +
+      file + R"("}}}})");
+  ASSERT_TRUE(window.shows_motions());
+  ASSERT_TRUE(ViewingWindow::until([&] { return window.viewer->shown().front().character != nullptr; }));
+  window.playback.set_frame(20);
+  window.keep_picture("viewer_character");
+  // A skin is one surface without sides.
+  EXPECT_LT(pixels_like(window.viewer->picture(), dark_theme().right, 10), 300);
+}
+
 TEST(Viewer, ShowsARealClip) {
   KINEGRAPH_NEEDS_MOCAP();
   const std::string graph =

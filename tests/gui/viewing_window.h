@@ -106,7 +106,9 @@ struct ViewingWindow {
   void keep_picture(const QString& name) {
     QTest::qWait(350);
     const QString folder = qEnvironmentVariable("KINEGRAPH_PICTURES");
-    if (!folder.isEmpty()) window.grab().save(folder + "/" + name + ".png");
+    if (folder.isEmpty()) return;
+    viewer->picture();
+    window.grab().save(folder + "/" + name + ".png");
   }
 };
 
