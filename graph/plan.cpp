@@ -255,19 +255,22 @@ class Planner {
       for (Diagnostic& problem : found)
         if (is_set || problem.severity == Severity::error) complain(std::move(problem), planned.name, is_set);
       value = fits ? completed(param, value) : *param.fallback;
-      make_absolute(scope, param, value, is_set, planned);
+      make_absolute(scope, param, written, value, is_set, planned);
       planned.params[param.name] = std::move(value);
     }
     if (planned.type->resolve) planned.type->resolve(planned.params);
   }
 
-  void make_absolute(const Scope& scope, const Param& param, Json& value, bool is_set, PlannedNode& planned) {
+  void make_absolute(const Scope& scope, const Param& param, const Json& as_written, Json& value, bool is_set,
+                     PlannedNode& planned) {
+    const std::string text = compact(as_written);
+    const bool own_name =
+        text.find("${item}") != std::string::npos || text.find("${index}") != std::string::npos;
     for_each_path(param, value, param.name, [&](Json& path, const ParamType& type, const std::string& where) {
       planned.shown_paths[where] = path.string();
       const bool written = type.kind == Kind::save_file;
-      const std::string& folder = written  ? scope.folders.write
-                                  : is_set ? options_.set_folder
-                                           : scope.folders.read;
+      std::string folder = written ? scope.folders.write : is_set ? options_.set_folder : scope.folders.read;
+      if (written && !own_name && !options_.item.empty()) folder = in_folder(folder, options_.item);
       path = Json(in_folder(folder, path.string()));
       if (is_set) plan_.set_paths.push_back(path.string());
     });

@@ -56,6 +56,7 @@ struct PlanOptions {
   std::string folder;    // absolute folder of the graph file
   std::string set_folder;  // absolute folder that paths given with --set start from
   std::string out;       // absolute folder that save_file parameters start from
+  std::string item;      // of a batch: its folder below `out`, where paths go that name no ${item} or ${index}
   std::map<std::string, Json> variables;  // given with --var: a string is read as the parameter's type asks
   std::vector<std::pair<std::string, std::string>> sets;  // "NODE.PARAM" (or a published name) and the text
 };

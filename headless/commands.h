@@ -74,6 +74,20 @@ struct ConvertArguments {
 };
 int convert_command(const Program& program, const ConvertArguments& arguments);
 
+// One graph over many clips.
+struct BatchArguments {
+  RunArguments run;
+  std::vector<std::string> each;  // "NODE.PARAM=GLOB"
+  bool cross = false, resume = false;
+  std::string table, shard;
+  std::vector<std::string> merge_reports;  // then nothing runs, and
+  std::string merged;                      // this is written
+};
+int batch_command(const Program& program, const BatchArguments& arguments);
+
+// The graph, nested files and clips in a folder, with paths that lead there.
+int pack_command(const Program& program, const RunArguments& arguments, const std::string& folder);
+
 struct CacheArguments {
   std::string folder, limit;
 };

@@ -57,6 +57,11 @@ void add_run_options(CLI::App& app, RunArguments& arguments) {
       ->type_name("FORM");
 }
 
+void add_html(CLI::App& app, RunArguments& arguments) {
+  app.add_option("--html", arguments.html, "Write a page with the graph, times, metrics and a player")
+      ->type_name("FILE.html");
+}
+
 void add_graph(CLI::App& app, std::string& graph) {
   app.add_option("GRAPH", graph, "A graph file, *.kg.json")->required()->type_name("");
 }
@@ -76,6 +81,7 @@ int chosen(const Program& program, int argc, char** argv) {
     auto& command = *app.add_subcommand("run", "Run a graph's Exports and Checks, or its published outputs");
     add_graph(command, run.graph);
     add_run_options(command, run);
+    add_html(command, run);
     command.add_option("--target", run.targets, "Run only what this needs")
         ->type_name("NODE[.PORT]")
         ->allow_extra_args(false);
@@ -230,6 +236,40 @@ int chosen(const Program& program, int argc, char** argv) {
     command.add_option("--out-unit", conversion.out_unit, "The unit for OUT; the source's without it")
         ->type_name("U");
     command.callback([&] { act = [&] { return convert_command(program, conversion); }; });
+  }
+  BatchArguments batch;
+  {
+    auto& command =
+        *app.add_subcommand("batch", "Run a graph over many clips, or put reports of shards together");
+    command.add_option("GRAPH", batch.run.graph, "A graph file, *.kg.json")->type_name("");
+    command.add_option("--each", batch.each, "Run once for each file; several go in step")
+        ->type_name("NODE.PARAM=GLOB")
+        ->allow_extra_args(false);
+    command.add_flag("--cross", batch.cross, "Run every combination instead");
+    command.add_option("--table", batch.table, "Run once for each row; the header names NODE.PARAM")
+        ->type_name("FILE.csv");
+    command
+        .add_option("--shard", batch.shard,
+                    "Run only this part, counted from 0; Slurm's arrays need no telling")
+        ->type_name("I/N");
+    command.add_flag("--resume", batch.resume, "Skip items whose files are there and still right");
+    command.add_option("--target", batch.run.targets, "Run only what this needs")
+        ->type_name("NODE[.PORT]")
+        ->allow_extra_args(false);
+    add_run_options(command, batch.run);
+    command.add_option("--merge-reports", batch.merge_reports, "Make one report of those of several shards")
+        ->type_name("FILE.json");
+    command.add_option("-o", batch.merged, "Where that goes")->type_name("FILE.json");
+    command.callback([&] { act = [&] { return batch_command(program, batch); }; });
+  }
+  std::string folder;
+  {
+    auto& command =
+        *app.add_subcommand("pack", "The graph, nested graphs and clips in one folder, to hand on");
+    add_graph(command, run.graph);
+    command.add_option("-o", folder, "The folder")->required()->type_name("DIR");
+    add_inputs(command, run);
+    command.callback([&] { act = [&] { return pack_command(program, run, folder); }; });
   }
   CacheArguments cache;
   {

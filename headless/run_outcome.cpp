@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "graph/file/write.h"
 #include "headless/exit_code.h"
+#include "headless/html_report.h"
 #include "headless/interruption.h"
 #include "headless/messages.h"
 
@@ -28,6 +30,7 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
   Progress progress(form_of(arguments, program.terminal), program.terminal);
   Session session(program, arguments, std::move(opened));
   Outcome outcome;
+  std::string page;
   outcome.problems = session.problems();
   program.terminal.say(session.problems());
   if (!session.valid()) {
@@ -35,7 +38,15 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
   } else {
     auto wanted = targets(session);
     try {
-      outcome.log = session.run(wanted, progress, interruption.token());
+      std::vector<BeforeAfter> shown;
+      auto asked = wanted;
+      if (!arguments.html.empty() && !arguments.dry_run) {
+        shown = motions_to_show(session, wanted);
+        for (const auto& one : shown)
+          for (const Target& target : {one.before, one.after})
+            if (!target.node.empty()) asked.push_back(target);
+      }
+      outcome.log = session.run(asked, progress, interruption.token());
       outcome.exit = exit_of(outcome.log, arguments.dry_run);
       if (!arguments.dry_run)
         for (const auto& target : session.needed_by(wanted).metrics)
@@ -45,6 +56,7 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
       program.terminal.results_written();  // results stand before messages where both go to one terminal
       say_log(program.terminal, outcome.log, session.opened().shown);
       outcome.exit = graver(outcome.exit, after_it);
+      if (!arguments.html.empty()) page = html_of(outcome, program, session, shown);
     } catch (const UsageError&) {
       throw;
     } catch (const std::exception& problem) {  // a report is due even when the program itself is at fault
@@ -59,6 +71,15 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
   if (!program.terminal.results_written()) {
     program.terminal.message("kinegraph: standard output can't be written\n");
     outcome.exit = graver(outcome.exit, exit_code::cannot_write);
+  }
+  if (!arguments.html.empty()) {
+    if (page.empty()) page = html_of(outcome, program, session, {});
+    try {
+      write_file_atomically(absolute_path(arguments.html), page);
+    } catch (const Failure& failure) {
+      program.terminal.say(failure.diagnostic());
+      outcome.exit = graver(outcome.exit, exit_code::cannot_write);
+    }
   }
   int reports = write_reports(outcome, program, arguments, session.opened(), session.options().out);
   return graver(outcome.exit, reports);

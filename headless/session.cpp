@@ -53,6 +53,7 @@ Session::Session(const Program& program, const RunArguments& arguments, Opened o
                        .folder = opened_.folder,
                        .set_folder = fs::current_path().string(),
                        .out = options_.out,
+                       .item = arguments.item,
                        .variables = variables};
   for (const auto& text : arguments.sets) {
     auto equals = text.find('=');

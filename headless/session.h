@@ -38,7 +38,8 @@ struct RunArguments {
   bool no_cache = false, keep_going = false, dry_run = false, allow_outside = false, sandbox = false;
   int threads = 0;
   double timeout = 0;
-  std::string report, junit;
+  std::string report, junit, html;
+  std::string item;  // of a batch: see PlanOptions
   std::string progress = "auto";
 };
 
@@ -55,9 +56,10 @@ Opened open_graph(const std::string& argument, const Registry& registry, bool mi
 // Everything wrong with a graph: what reading found and what validating finds beyond it, each once, in file
 // order.
 Diagnostics all_problems(const Opened& opened, const Registry& registry, const ValidateOptions& options);
-// Opens the graphs inside it (see graph/nested.h). `sets` as --set has them, of which those that name a Graph node's file
-// count; `files` reads, and says what may be read.
-void open_graphs_inside(Opened& opened, const Registry& registry, const std::map<std::string, Json>& variables,
+// Opens the graphs inside it (see graph/nested.h). `sets` as --set has them, of which those that name a Graph
+// node's file count; `files` reads, and says what may be read.
+void open_graphs_inside(Opened& opened, const Registry& registry,
+                        const std::map<std::string, Json>& variables,
                         const std::vector<std::pair<std::string, std::string>>& sets, FileStore& files);
 // "NAME=VALUE" of --var. Throws UsageError.
 std::map<std::string, Json> parsed_variables(const std::vector<std::string>& vars);
@@ -76,6 +78,7 @@ class Session {
   const Diagnostics& problems() const { return problems_; }
   bool valid() const { return !has_error(problems_); }
   Plan& plan() { return plan_; }
+  const Plan& plan() const { return plan_; }
   RunOptions& options() { return options_; }
   FileStore& files() { return *files_; }
   Evaluator& evaluator() { return *evaluator_; }

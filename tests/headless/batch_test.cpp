@@ -1,0 +1,144 @@
+// batch: one graph over many clips.
+#include <csignal>
+
+#include "program.h"
+
+namespace kinegraph {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class BatchTest : public ProgramTest {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"a", "b", "c"}) {
+      write(
+          "make.kg.json",
+          graph(std::string(R"("walk": {"type": "Gait", "params": {"seconds": 0.5, "seed": )") +
+                std::to_string(name[0]) + R"(}}, "out": {"type": "Export", "params": {"file": "clips/)" +
+                (name[0] == 'c' ? "more/" : "") + name + R"(.bvh"}, "inputs": {"motion": "walk.motion"}})"));
+      ASSERT_EQ(run({"run", "make.kg.json"}).exit, 0);
+    }
+    write("g.kg.json", batch_graph("smooth.bvh"));
+  }
+  static std::string batch_graph(const std::string& file) {
+    return graph(R"("clip": {"type": "Load", "params": {"file": "clips/a.bvh"}},
+      "smooth": {"type": "Filter", "inputs": {"motion": "clip.motion"}},
+      "out": {"type": "Export", "params": {"file": ")" +
+                 file + R"("}, "inputs": {"motion": "smooth.motion"}})");
+  }
+  Ran batch(std::vector<std::string> more, std::vector<std::string> environment = {}) {
+    std::vector<std::string> all{"batch", "g.kg.json", "--each", "clip.file=clips/**/*.bvh", "--out", "done"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all, std::move(environment));
+  }
+};
+
+TEST_F(BatchTest, EveryClipGetsAFolderOfItsOwn) {
+  Ran ran = batch({"--report", "report.json"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("3 items: 3 done"));
+  EXPECT_TRUE(exists("done/a/smooth.bvh"));
+  EXPECT_TRUE(exists("done/more/c/smooth.bvh"));
+  EXPECT_TRUE(exists("done/.kinegraph/more/c.json"));
+  EXPECT_EQ(read_json("report.json")["items"].size(), 3u);
+  EXPECT_EQ(read_json("report.json")["items"]["a"]["report"]["files"][0]["path"], "a/smooth.bvh");
+}
+
+TEST_F(BatchTest, AnExportMayNameItsItem) {
+  write("g.kg.json", batch_graph("all/${item}_${index}.bvh"));
+  EXPECT_EQ(batch({}).exit, 0);
+  EXPECT_TRUE(exists("done/all/a_0.bvh"));
+  EXPECT_TRUE(exists("done/all/more/c_2.bvh"));
+}
+
+TEST_F(BatchTest, AFailureDoesNotStopTheRest) {
+  write("clips/b.bvh", "HIERARCHY nonsense");
+  Ran ran = batch({"--report", "report.json", "--junit", "junit.xml"});
+  EXPECT_EQ(ran.exit, 1);
+  EXPECT_THAT(ran.out, HasSubstr("failed  b\n"));
+  EXPECT_TRUE(exists("done/a/smooth.bvh"));
+  EXPECT_TRUE(exists("done/more/c/smooth.bvh"));
+  EXPECT_FALSE(exists("done/.kinegraph/b.json"));
+  EXPECT_EQ(read_json("report.json")["items"]["b"]["state"], "failed");
+  EXPECT_THAT(read("junit.xml"), HasSubstr("<testsuite name=\"b: g.kg.json\""));
+}
+
+TEST_F(BatchTest, ResumeSkipsWhatStillAgrees) {
+  ASSERT_EQ(batch({}).exit, 0);
+  EXPECT_THAT(batch({"--resume"}).out, HasSubstr("3 skipped"));
+  // A file that is gone, a file that was changed and a clip that was changed are made again.
+  std::filesystem::remove(path("done/a/smooth.bvh"));
+  write("done/b/smooth.bvh", "changed");
+  EXPECT_THAT(batch({"--resume"}).out, HasSubstr("2 done, 1 skipped"));
+  EXPECT_THAT(read("done/b/smooth.bvh"), Not(testing::StrEq("changed")));
+  write("clips/a.bvh", read("clips/b.bvh"));
+  EXPECT_THAT(batch({"--resume"}).out, HasSubstr("1 done, 2 skipped"));
+  EXPECT_THAT(batch({"--resume", "--set", "smooth.cutoff=3"}).out, HasSubstr("3 done"));
+}
+
+TEST_F(BatchTest, ListsGoInStepOrAreCrossed) {
+  std::vector<std::string> two{"batch", "g.kg.json", "--each",   "clip.file=clips/?.bvh",
+                               "--out", "done",      "--dry-run"};
+  std::vector<std::string> with_three = two;
+  with_three.insert(with_three.end(), {"--each", "clip.file=clips/**/*.bvh"});
+  EXPECT_EQ(run(with_three).exit, 2);
+  with_three.push_back("--cross");
+  Ran crossed = run(with_three);
+  EXPECT_EQ(crossed.exit, 0) << crossed.err;
+  EXPECT_THAT(crossed.out, HasSubstr("item  a+more/c\n"));
+}
+
+TEST_F(BatchTest, ATableSetsWhatItsHeaderNames) {
+  write("table.csv",
+        "item,clip.file,smooth.cutoff\r\nslow,clips/a.bvh,2\r\n\"fast, really\",clips/b.bvh,9\r\n");
+  Ran ran = run({"batch", "g.kg.json", "--table", "table.csv", "--out", "done"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_TRUE(exists("done/slow/smooth.bvh"));
+  EXPECT_TRUE(exists("done/fast, really/smooth.bvh"));
+}
+
+TEST_F(BatchTest, ShardsShareTheItemsAndTheirReportsBecomeOne) {
+  EXPECT_EQ(batch({"--shard", "0/2", "--report", "r0.json"}).exit, 0);
+  EXPECT_EQ(batch({"--report", "r.json"}, {"SLURM_ARRAY_TASK_ID=5", "SLURM_ARRAY_TASK_MIN=3",
+                                           "SLURM_ARRAY_TASK_STEP=2", "SLURM_ARRAY_TASK_COUNT=2"})
+                .exit,
+            0);
+  const auto first = read_json("r0.json")["items"], second = read_json("r.1.json")["items"];
+  EXPECT_EQ(first.size() + second.size(), 3u);
+  EXPECT_EQ(run({"batch", "--merge-reports", "r0.json", "r.1.json", "-o", "all.json"}).exit, 0);
+  EXPECT_EQ(read_json("all.json")["items"].size(), 3u);
+  EXPECT_EQ(read_json("all.json")["started"], read_json("r0.json")["started"]);
+  EXPECT_EQ(read_json("all.json")["ended"], read_json("r.1.json")["ended"]);
+  EXPECT_EQ(batch({"--shard", "2/2"}).exit, 2);
+}
+
+TEST_F(BatchTest, WhatIsWrongIsToldBeforeAnythingRuns) {
+  EXPECT_EQ(run({"batch", "g.kg.json", "--out", "done"}).exit, 2);
+  EXPECT_EQ(run({"batch", "g.kg.json", "--each", "clip.file=none/*.bvh", "--out", "done"}).exit, 2);
+  EXPECT_EQ(run({"batch", "g.kg.json", "--each", "nobody.file=clips/*.bvh", "--out", "done"}).exit, 2);
+  write("g.kg.json", "{");
+  EXPECT_EQ(batch({}).exit, 3);
+  EXPECT_FALSE(exists("done"));
+}
+
+TEST_F(BatchTest, KilledAndResumedItEndsWithEveryOutputOnce) {
+  for (int kill = 0; kill < 2; ++kill) {
+    const auto running =
+        start({"batch", "g.kg.json", "--each", "clip.file=clips/**/*.bvh", "--out", "done", "--resume"});
+    usleep(20000);
+    ::kill(running.process, SIGKILL);
+    wait(running);
+  }
+  EXPECT_EQ(batch({"--resume"}).exit, 0);
+  std::vector<std::string> made;
+  for (const auto& file : files())
+    if (file.starts_with("done/") && file.ends_with(".bvh")) made.push_back(file);
+  EXPECT_THAT(made,
+              testing::IsSupersetOf({"done/a/smooth.bvh", "done/b/smooth.bvh", "done/more/c/smooth.bvh"}));
+}
+
+}  // namespace
+}  // namespace kinegraph
