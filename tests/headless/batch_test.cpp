@@ -1,4 +1,6 @@
 // batch: one graph over many clips.
+#include <unistd.h>
+
 #include <csignal>
 
 #include "program.h"
@@ -14,11 +16,11 @@ class BatchTest : public ProgramTest {
  protected:
   void SetUp() override {
     for (const char* name : {"a", "b", "c"}) {
-      write(
-          "make.kg.json",
-          graph(std::string(R"("walk": {"type": "Gait", "params": {"seconds": 0.5, "seed": )") +
-                std::to_string(name[0]) + R"(}}, "out": {"type": "Export", "params": {"file": "clips/)" +
-                (name[0] == 'c' ? "more/" : "") + name + R"(.bvh"}, "inputs": {"motion": "walk.motion"}})"));
+      write("make.kg.json", graph(std::string(R"("walk": {"type": "Gait", "params": {"seconds": 0.)") +
+                                  std::to_string(name[0] - 'a' + 5) +
+                                  R"(}}, "out": {"type": "Export", "params": {"file": "clips/)" +
+                                  (name[0] == 'c' ? "more/" : "") + name +
+                                  R"(.bvh"}, "inputs": {"motion": "walk.motion"}})"));
       ASSERT_EQ(run({"run", "make.kg.json"}).exit, 0);
     }
     write("g.kg.json", batch_graph("smooth.bvh"));
