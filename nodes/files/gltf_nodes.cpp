@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "nodes/motion/elementary.h"
+
 namespace kinegraph {
 
 namespace {
@@ -29,8 +31,12 @@ Decomposed local_of(const tinygltf::Node& node) {
   return local;
 }
 
+double cube_root(double x) {
+  return x > 0 ? power(x, 1.0 / 3) : 0;
+}
+
 double mean_scale(const Affine& map) {
-  return std::cbrt(std::fabs(determinant(map)));
+  return cube_root(std::fabs(determinant(map)));
 }
 
 // Parents before children, as children stand in the file. Throws where that is no forest.
@@ -156,7 +162,7 @@ GltfNodes gltf_nodes(const GltfFile& file, double metres, Work& work) {
                                                                    : 0;
     joint.offset = scale * local.move;
     joint.rest = local.turned;
-    const double mean = std::cbrt(std::fabs(local.scale.x * local.scale.y * local.scale.z));
+    const double mean = cube_root(std::fabs(local.scale.x * local.scale.y * local.scale.z));
     if (const Vec3 apart = local.scale - mean * Vec3{1, 1, 1}; !(norm(apart) <= 1e-3 * mean))
       uneven = joint.name;
     out.joint_of_node[node] = skeleton.size();

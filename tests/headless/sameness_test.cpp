@@ -23,6 +23,16 @@ struct Told {
   int threads = 0;
 };
 
+bool writes_alone(const fs::path& graph) {
+  std::ifstream file(graph);
+  bool writes = false;
+  for (const auto& node : json::parse(file)["nodes"]) {
+    writes = writes || node["type"] == "Export";
+    if (node["type"] == "Graph") return false;
+  }
+  return writes;
+}
+
 class Sameness : public ProgramTest {
  protected:
   Told told(const std::string& graph, std::vector<std::string> options = {}) {
@@ -45,12 +55,14 @@ class Sameness : public ProgramTest {
     return result;
   }
 
-  // The graph as it stands, under path("graphs"), with the clips it reads beside it.
+  // Graphs that write files as they stand, under path("graphs"), with the clips they read beside them. One
+  // that uses other graphs has keys of inner nodes too, which keep their names when the outer ones are
+  // renamed: nested_test covers it.
   std::vector<std::string> graphs() {
     fs::copy(KINEGRAPH_SOURCE_DIR "/graphs", path("graphs"), fs::copy_options::recursive);
     std::vector<std::string> all;
     for (const auto& entry : fs::directory_iterator(path("graphs")))
-      if (entry.path().string().ends_with(".kg.json"))
+      if (entry.path().string().ends_with(".kg.json") && writes_alone(entry.path()))
         all.push_back("graphs/" + entry.path().filename().string());
     if (fs::exists(mocap("README.md")))
       for (const auto& entry : fs::directory_iterator(KINEGRAPH_SOURCE_DIR "/tests/main_job"))
