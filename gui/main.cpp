@@ -15,7 +15,8 @@ namespace {
 std::string cache_folder() {
   const QString given = qEnvironmentVariable("KINEGRAPH_CACHE");
   if (!given.isEmpty()) return given.toStdString();
-  const QString folder = QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/kinegraph";
+  const QString folder =
+      QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/kinegraph";
   return QDir().mkpath(folder) ? folder.toStdString() : std::string();
 }
 
@@ -48,7 +49,8 @@ int main(int argc, char** argv) {
 
   const kinegraph::Registry registry = kinegraph::all_nodes();
   const bool picture = options.isSet(screenshot);
-  kinegraph::MainWindow window(registry, {.remember = !picture, .ask = !picture, .cache_folder = cache_folder()});
+  kinegraph::MainWindow window(registry,
+                               {.remember = !picture, .ask = !picture, .cache_folder = cache_folder()});
   if (options.isSet(theme)) {
     const QString name = options.value(theme);
     if (name != "dark" && name != "light") return complain("--theme is dark or light");
@@ -61,19 +63,22 @@ int main(int argc, char** argv) {
   if (!graphs.isEmpty()) opened = window.open(graphs.first());
   if (options.isSet(dock)) {
     if (!window.dock_names().contains(options.value(dock), Qt::CaseInsensitive))
-      return complain("there is no dock \"" + options.value(dock) + "\"; there are " + window.dock_names().join(", "));
+      return complain("there is no dock \"" + options.value(dock) + "\"; there are " +
+                      window.dock_names().join(", "));
     window.show_dock(options.value(dock));
   }
   if (options.isSet(node)) {
     const std::string name = options.value(node).toStdString();
-    if (!window.session().document().nodes.count(name)) return complain("there is no node \"" + options.value(node) + "\"");
+    if (!window.session().document().nodes.count(name))
+      return complain("there is no node \"" + options.value(node) + "\"");
     window.session().select({name}, name);
   }
   if (!picture) return QApplication::exec();
 
   const QStringList sides = options.value(size).split('x');
   const QSize wanted = sides.size() == 2 ? QSize(sides[0].toInt(), sides[1].toInt()) : QSize();
-  if (wanted.width() < 320 || wanted.height() < 240) return complain("--size is WIDTHxHEIGHT, at least 320x240");
+  if (wanted.width() < 320 || wanted.height() < 240)
+    return complain("--size is WIDTHxHEIGHT, at least 320x240");
   if (!kinegraph::take_screenshot(window, options.value(screenshot), wanted))
     return complain("can't write " + QFileInfo(options.value(screenshot)).absoluteFilePath());
   return opened ? 0 : 3;

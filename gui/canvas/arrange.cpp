@@ -113,7 +113,8 @@ std::map<std::string, QPointF> arranged(const GraphScene& scene, const std::set<
     std::set<std::string> all;
     for (const SceneNode& node : scene.nodes()) all.insert(node.name);
     return all;
-  }()) : scene.bounds_of(nodes);
+  }())
+                                      : scene.bounds_of(nodes);
   double top = 1e300;
   for (const Item& item : items) top = std::min(top, item.y);
   std::map<std::string, QPointF> positions;

@@ -9,7 +9,8 @@
 
 namespace kinegraph {
 
-// New positions of `nodes` (of all, where it is empty). The arrangement keeps the top left of where they were.
+// New positions of `nodes` (of all, where it is empty). The arrangement keeps the top left of where they
+// were.
 std::map<std::string, QPointF> arranged(const GraphScene& scene, const std::set<std::string>& nodes);
 
 }  // namespace kinegraph

@@ -19,7 +19,6 @@ QString elided_number(double value) {
   return QString::fromStdString(shortest_number(std::round(value * 1e4) / 1e4));
 }
 
-
 // Which of a node's many ports are shown: linked ones, and the first where none is.
 template <class Port>
 std::vector<bool> shown_of(const std::vector<Port>& ports, const std::set<std::string>& linked, bool all) {
@@ -35,8 +34,9 @@ void add_values(SceneNode& scene, const Node& node, const NodeType& type) {
   for (const Param& param : type.params) {
     if (scene.values.size() == values_shown) break;
     auto stored = node.params.find(param.name);
-    const bool first_file = (param.kind == ParamType::Kind::open_file || param.kind == ParamType::Kind::save_file) &&
-                            param.name == "file";
+    const bool first_file =
+        (param.kind == ParamType::Kind::open_file || param.kind == ParamType::Kind::save_file) &&
+        param.name == "file";
     if (stored == node.params.end() && !first_file) continue;
     SceneValue value{QString::fromStdString(param.name),
                      stored == node.params.end() ? QString() : shown_value(param, stored->second)};
@@ -128,8 +128,15 @@ void GraphScene::rebuild(const Document& document, const Registry& registry,
     double y = title_height + row / 2 + 2;
     if (scene.dot) {
       scene.rect = QRectF(pos, QSizeF(20, 20));
-      scene.inputs.push_back({type->inputs[0].name, out_type(type->outputs[0].name), {}, {0, 10}, false, true, !ins.empty()});
-      scene.outputs.push_back({type->outputs[0].name, out_type(type->outputs[0].name), {}, {20, 10}, false, false, !outs.empty()});
+      scene.inputs.push_back(
+          {type->inputs[0].name, out_type(type->outputs[0].name), {}, {0, 10}, false, true, !ins.empty()});
+      scene.outputs.push_back({type->outputs[0].name,
+                               out_type(type->outputs[0].name),
+                               {},
+                               {20, 10},
+                               false,
+                               false,
+                               !outs.empty()});
     } else {
       std::vector<ScenePort> all_in, all_out;
       std::vector<bool> in_shown, out_shown;
@@ -139,16 +146,26 @@ void GraphScene::rebuild(const Document& document, const Registry& registry,
         in_shown = shown_of(type->inputs, ins, scene.expanded);
         out_shown = shown_of(type->outputs, outs, scene.expanded);
         for (const InputPort& port : type->inputs)
-          all_in.push_back({port.name, port.types.empty() ? "" : port.types.front(),
-                            QString::fromStdString(port.help), {}, port.list, port.optional,
+          all_in.push_back({port.name,
+                            port.types.empty() ? "" : port.types.front(),
+                            QString::fromStdString(port.help),
+                            {},
+                            port.list,
+                            port.optional,
                             ins.count(port.name) > 0});
         for (const OutputPort& port : type->outputs)
-          all_out.push_back({port.name, port.type.empty() ? out_type(port.name) : port.type,
-                             QString::fromStdString(port.help), {}, false, false, outs.count(port.name) > 0});
+          all_out.push_back({port.name,
+                             port.type.empty() ? out_type(port.name) : port.type,
+                             QString::fromStdString(port.help),
+                             {},
+                             false,
+                             false,
+                             outs.count(port.name) > 0});
         // A Switch's inputs look like what is linked to them.
         for (ScenePort& port : all_in)
           if (port.type.empty() && !all_out.empty()) port.type = all_out.front().type;
-        scene.expandable = type->inputs.size() > ports_shown_at_once || type->outputs.size() > ports_shown_at_once;
+        scene.expandable =
+            type->inputs.size() > ports_shown_at_once || type->outputs.size() > ports_shown_at_once;
       } else {
         for (const std::string& port : ins) all_in.push_back({port, "", {}, {}, false, false, true});
         for (const std::string& port : outs) all_out.push_back({port, "", {}, {}, false, false, true});

@@ -36,10 +36,12 @@ void GraphCanvas::search_to_add(QPointF graph, std::optional<PortAt> port) {
     entries.push_back({QString::fromStdString(name), QString::fromStdString(type.category),
                        QString::fromStdString(type.help), keywords});
   }
-  const QString prompt = port ? tr("Nodes that fit %1").arg(QString::fromStdString(port->port)) : tr("Add a node");
+  const QString prompt =
+      port ? tr("Nodes that fit %1").arg(QString::fromStdString(port->port)) : tr("Add a node");
   search_->open(to_view(graph).toPoint(), prompt, std::move(entries), [this, graph, port, types](int chosen) {
     // The node's first port comes to lie where the wire was let go.
-    const QPointF at = port ? graph - QPointF(port->input ? GraphScene::node_width : 0, 52) : graph - QPointF(90, 20);
+    const QPointF at =
+        port ? graph - QPointF(port->input ? GraphScene::node_width : 0, 52) : graph - QPointF(90, 20);
     add(types[std::size_t(chosen)], at, port);
   });
 }
@@ -53,7 +55,9 @@ void GraphCanvas::find_node() {
   std::vector<std::string> names;
   for (const auto& [name, node] : session_.document().nodes) {
     names.push_back(name);
-    entries.push_back({QString::fromStdString(name), QString::fromStdString(node.type), QString::fromStdString(node.note),
+    entries.push_back({QString::fromStdString(name),
+                       QString::fromStdString(node.type),
+                       QString::fromStdString(node.note),
                        {QString::fromStdString(node.type), QString::fromStdString(node.note)}});
   }
   search_->open({(width() - 320) / 2, 40}, tr("Find a node"), std::move(entries), [this, names](int chosen) {
@@ -79,14 +83,18 @@ void GraphCanvas::link_by_search() {
         const PortAt a{from, output.name, false}, b{name, to->inputs[i].name, true};
         if (!objection(document, session_.registry(), a, b).isEmpty()) continue;
         links.push_back({a, b});
-        entries.push_back({QString::fromStdString(name + "." + b.port), QString::fromStdString(output.name + " →"),
-                           QString::fromStdString(to->inputs[i].help), {}});
+        entries.push_back({QString::fromStdString(name + "." + b.port),
+                           QString::fromStdString(output.name + " →"),
+                           QString::fromStdString(to->inputs[i].help),
+                           {}});
       }
     }
   search_->open(to_view(node->rect.topRight() + QPointF(10, 0)).toPoint(), tr("Link to"), std::move(entries),
                 [this, links](int chosen) {
                   const auto& [a, b] = links[std::size_t(chosen)];
-                  session_.perform([&, a = a, b = b](const Document& d, const Registry& r) { return link_ports(d, r, a, b); });
+                  session_.perform([&, a = a, b = b](const Document& d, const Registry& r) {
+                    return link_ports(d, r, a, b);
+                  });
                 });
 }
 
@@ -102,7 +110,8 @@ void GraphCanvas::remove_selected() {
     if (!names.empty() && frames.empty())
       steps.push_back([&](const Document& d, const Registry& r) { return remove_nodes(d, r, names, true); });
     return one_after_another(document, registry,
-                             names.size() == 1 && frames.empty() ? "Delete " + names.front() : "Delete", steps);
+                             names.size() == 1 && frames.empty() ? "Delete " + names.front() : "Delete",
+                             steps);
   });
 }
 
@@ -165,8 +174,8 @@ void GraphCanvas::choose_color() {
   if (session_.selected().empty()) return;
   const auto nodes = session_.selected();
   static const std::pair<const char*, const char*> colors[] = {
-      {"#c8553d", "Red"},   {"#d98e2b", "Orange"}, {"#c9b53a", "Yellow"}, {"#5a9e4b", "Green"},
-      {"#3a9c94", "Teal"},  {"#3f7fc0", "Blue"},   {"#7a5fc0", "Violet"}, {"#b04f8f", "Pink"}};
+      {"#c8553d", "Red"},  {"#d98e2b", "Orange"}, {"#c9b53a", "Yellow"}, {"#5a9e4b", "Green"},
+      {"#3a9c94", "Teal"}, {"#3f7fc0", "Blue"},   {"#7a5fc0", "Violet"}, {"#b04f8f", "Pink"}};
   QMenu menu(this);
   for (const auto& [hex, name] : colors) {
     QPixmap swatch(16, 16);
@@ -186,7 +195,9 @@ void GraphCanvas::choose_color() {
 void GraphCanvas::add_note() {
   std::string name;
   const QPointF at = pointer();
-  if (!session_.perform([&](const Document& d, const Registry&) { return kinegraph::add_note(d, at, {}, &name); })) return;
+  if (!session_.perform(
+          [&](const Document& d, const Registry&) { return kinegraph::add_note(d, at, {}, &name); }))
+    return;
   select_decor({}, {name});
   for (const SceneNote& note : scene_.notes())
     if (note.name == name)
@@ -201,7 +212,9 @@ void GraphCanvas::group_in_frame() {
   if (session_.selected().empty()) return;
   std::string name;
   const auto nodes = session_.selected();
-  if (!session_.perform([&](const Document& d, const Registry&) { return add_frame(d, nodes, tr("Group"), &name); })) return;
+  if (!session_.perform(
+          [&](const Document& d, const Registry&) { return add_frame(d, nodes, tr("Group"), &name); }))
+    return;
   select_decor({name}, {});
   for (const SceneFrame& frame : scene_.frames())
     if (frame.name == name)
@@ -211,7 +224,8 @@ void GraphCanvas::group_in_frame() {
 }
 
 void GraphCanvas::arrange() {
-  const std::set<std::string> nodes = session_.selected().size() > 1 ? session_.selected() : std::set<std::string>();
+  const std::set<std::string> nodes =
+      session_.selected().size() > 1 ? session_.selected() : std::set<std::string>();
   const auto positions = arranged(scene_, nodes);
   if (positions.empty()) return;
   session_.perform([&](const Document& d, const Registry&) {
@@ -239,7 +253,8 @@ void GraphCanvas::rename_selected() {
             [this, name](const QString& text) {
               const std::string wanted = text.trimmed().toStdString();
               if (wanted.empty() || wanted == name) return;
-              if (session_.perform([&](const Document& d, const Registry&) { return rename_node(d, name, wanted); }))
+              if (session_.perform(
+                      [&](const Document& d, const Registry&) { return rename_node(d, name, wanted); }))
                 session_.select({wanted}, wanted);
             });
 }
@@ -274,7 +289,8 @@ void GraphCanvas::walk(int dx, int dy) {
     }
   };
   if (!node) {
-    for (const SceneNode& other : scene_.nodes()) consider(&other, other.rect.left() + other.rect.top() * 0.1);
+    for (const SceneNode& other : scene_.nodes())
+      consider(&other, other.rect.left() + other.rect.top() * 0.1);
   } else if (dx) {
     // The nearest in height of those linked there.
     for (const SceneWire& wire : scene_.wires()) {

@@ -104,7 +104,8 @@ Edit place_note(const Document& document, const std::string& note, QRectF rect) 
   return set_unit(document, {Kind::ui_note, note, {}}, std::move(entry), "Move a note");
 }
 
-Edit add_frame(const Document& document, const std::set<std::string>& nodes, const QString& title, std::string* name) {
+Edit add_frame(const Document& document, const std::set<std::string>& nodes, const QString& title,
+               std::string* name) {
   *name = fresh_decor(document.ui.frames, "frame");
   Json::Array inside;
   for (const std::string& node : nodes) inside.push_back(node);
@@ -118,7 +119,8 @@ Edit set_frame_title(const Document& document, const std::string& frame, const Q
   return ui_edit(document, Kind::ui_frame, frame, "title", title.toStdString(), "Name a frame");
 }
 
-Edit remove_decor(const Document& document, const std::set<std::string>& frames, const std::set<std::string>& notes) {
+Edit remove_decor(const Document& document, const std::set<std::string>& frames,
+                  const std::set<std::string>& notes) {
   Edit edit{"Delete", {}};
   for (const std::string& name : frames)
     edit.changes.push_back(change_of(document, {Kind::ui_frame, name, {}}, std::nullopt));
@@ -127,7 +129,8 @@ Edit remove_decor(const Document& document, const std::set<std::string>& frames,
   return edit;
 }
 
-Edit add_new_node(const Document& document, const Registry& registry, const NewNode& node, std::string* name) {
+Edit add_new_node(const Document& document, const Registry& registry, const NewNode& node,
+                  std::string* name) {
   *name = fresh_name(document, node.type);
   std::vector<EditStep> steps;
   steps.push_back([&](const Document& d, const Registry& r) { return add_node(d, r, *name, node.type); });
@@ -158,8 +161,9 @@ std::optional<std::pair<Link, PortAt>> directed(const PortAt& a, const PortAt& b
 Edit link_ports(const Document& document, const Registry& registry, const PortAt& a, const PortAt& b) {
   const auto pair = directed(a, b);
   if (!pair)
-    throw Failure(error("type-mismatch", a.input ? "two inputs can't be linked" : "two outputs can't be linked")
-                      .hinting("link an output to an input"));
+    throw Failure(
+        error("type-mismatch", a.input ? "two inputs can't be linked" : "two outputs can't be linked")
+            .hinting("link an output to an input"));
   const auto& [from, to] = *pair;
   auto node = document.nodes.find(to.node);
   const NodeType* type = node == document.nodes.end() ? nullptr : registry.find(node->second.type);
@@ -169,10 +173,12 @@ Edit link_ports(const Document& document, const Registry& registry, const PortAt
     auto links = node->second.inputs.find(to.port);
     if (links != node->second.inputs.end() && !links->second.links.empty()) {
       if (links->second.links.front() == from) return {};
-      steps.push_back([&](const Document& d, const Registry& r) { return disconnect(d, r, to.node, to.port); });
+      steps.push_back(
+          [&](const Document& d, const Registry& r) { return disconnect(d, r, to.node, to.port); });
     }
   }
-  steps.push_back([&](const Document& d, const Registry& r) { return connect(d, r, from, to.node, to.port); });
+  steps.push_back(
+      [&](const Document& d, const Registry& r) { return connect(d, r, from, to.node, to.port); });
   return one_after_another(document, registry,
                            "Link " + from.node + "." + from.port + " to " + to.node + "." + to.port, steps);
 }
@@ -213,7 +219,8 @@ std::optional<PortAt> fitting_port(const Document& document, const Registry& reg
   return taken;
 }
 
-std::vector<std::string> fitting_types(const Document& document, const Registry& registry, const PortAt& from) {
+std::vector<std::string> fitting_types(const Document& document, const Registry& registry,
+                                       const PortAt& from) {
   std::vector<std::string> fitting;
   Document draft = document;
   const std::string probe = fresh_name(document, "probe");

@@ -1,4 +1,5 @@
-// Gestures of the canvas as single edits, put together from those of graph/edit.h so that each is one undo step.
+// Gestures of the canvas as single edits, put together from those of graph/edit.h so that each is one undo
+// step.
 #pragma once
 #include <QObject>
 #include <QPointF>
@@ -15,7 +16,8 @@ namespace kinegraph {
 
 using EditStep = std::function<Edit(const Document&, const Registry&)>;
 // The steps after one another as one edit; throws what a step throws.
-Edit one_after_another(const Document&, const Registry&, const std::string& title, const std::vector<EditStep>& steps);
+Edit one_after_another(const Document&, const Registry&, const std::string& title,
+                       const std::vector<EditStep>& steps);
 
 Edit move_nodes(const Document&, const std::map<std::string, QPointF>& positions);
 Edit set_color(const Document&, const std::set<std::string>& nodes, const QString& color);  // "" = none
@@ -26,8 +28,8 @@ Edit add_frame(const Document&, const std::set<std::string>& nodes, const QStrin
 Edit set_frame_title(const Document&, const std::string& frame, const QString& title);
 Edit remove_decor(const Document&, const std::set<std::string>& frames, const std::set<std::string>& notes);
 
-// A node of `type` at a position, optionally linked: from `from` to its first input that fits, or its first fitting
-// output to `to`. `name` receives its name.
+// A node of `type` at a position, optionally linked: from `from` to its first input that fits, or its first
+// fitting output to `to`. `name` receives its name.
 struct NewNode {
   std::string type;
   QPointF at;
@@ -41,7 +43,8 @@ Edit link_ports(const Document&, const Registry&, const PortAt& a, const PortAt&
 // Why the two ports can't be linked, "" where they can.
 QString objection(const Document&, const Registry&, const PortAt& a, const PortAt& b);
 // A port of the node that `from` can be linked to, shown or not.
-std::optional<PortAt> fitting_port(const Document&, const Registry&, const PortAt& from, const std::string& node);
+std::optional<PortAt> fitting_port(const Document&, const Registry&, const PortAt& from,
+                                   const std::string& node);
 // Types that have a port which fits `from`.
 std::vector<std::string> fitting_types(const Document&, const Registry&, const PortAt& from);
 

@@ -68,8 +68,13 @@ class BoxSelect : public CanvasGesture {
 
 class Move : public CanvasGesture {
  public:
-  Move(GraphCanvas& canvas, QPointF view, std::set<std::string> nodes, std::set<std::string> notes, bool take_out)
-      : CanvasGesture(canvas), start_(view), nodes_(std::move(nodes)), notes_(std::move(notes)), take_out_(take_out) {}
+  Move(GraphCanvas& canvas, QPointF view, std::set<std::string> nodes, std::set<std::string> notes,
+       bool take_out)
+      : CanvasGesture(canvas),
+        start_(view),
+        nodes_(std::move(nodes)),
+        notes_(std::move(notes)),
+        take_out_(take_out) {}
 
   void move(QPointF view) override {
     if (!moved_ && QLineF(start_, view).length() < 4) return;
@@ -89,15 +94,20 @@ class Move : public CanvasGesture {
     canvas_.session().perform([&](const Document& document, const Registry& registry) {
       std::vector<EditStep> steps;
       if (take_out_ && nodes_.size() == 1)
-        steps.push_back([&](const Document& d, const Registry& r) { return kinegraph::take_out(d, r, *nodes_.begin()); });
+        steps.push_back(
+            [&](const Document& d, const Registry& r) { return kinegraph::take_out(d, r, *nodes_.begin()); });
       std::map<std::string, QPointF> positions;
       for (const std::string& name : nodes_)
         if (const SceneNode* node = canvas_.scene().node(name)) positions[name] = node->rect.topLeft() + by;
       steps.push_back([&](const Document& d, const Registry&) { return move_nodes(d, positions); });
       for (const SceneNote& note : canvas_.scene().notes())
         if (notes_.count(note.name))
-          steps.push_back([&](const Document& d, const Registry&) { return place_note(d, note.name, note.rect.translated(by)); });
-      std::string title = nodes_.size() == 1 ? "Move " + *nodes_.begin() : "Move " + std::to_string(nodes_.size() + notes_.size()) + " things";
+          steps.push_back([&](const Document& d, const Registry&) {
+            return place_note(d, note.name, note.rect.translated(by));
+          });
+      std::string title = nodes_.size() == 1
+                              ? "Move " + *nodes_.begin()
+                              : "Move " + std::to_string(nodes_.size() + notes_.size()) + " things";
       if (wire) {
         title = "Insert " + *nodes_.begin();
         steps.push_back([&](const Document& d, const Registry& r) {
@@ -141,8 +151,9 @@ class Move : public CanvasGesture {
       bool crosses = false;
       for (const QPointF& point : wire.line) crosses |= inner.contains(point);
       for (qsizetype i = 0; i + 1 < wire.line.size() && !crosses; ++i)
-        crosses = QLineF(wire.line[i], wire.line[i + 1])
-                      .intersects(QLineF(inner.topLeft(), inner.bottomRight())) == QLineF::BoundedIntersection;
+        crosses =
+            QLineF(wire.line[i], wire.line[i + 1]).intersects(QLineF(inner.topLeft(), inner.bottomRight())) ==
+            QLineF::BoundedIntersection;
       if (!crosses) continue;
       Session& session = canvas_.session();
       try {
@@ -175,7 +186,8 @@ class ResizeNote : public CanvasGesture {
   void release(QPointF view) override {
     end_ = view;
     if (start_ == end_) return;
-    canvas_.session().perform([&](const Document& d, const Registry&) { return place_note(d, note_, now()); });
+    canvas_.session().perform(
+        [&](const Document& d, const Registry&) { return place_note(d, note_, now()); });
   }
   void paint(QPainter& p) override {
     p.setPen(QPen(canvas_.theme().accent, 1, Qt::DashLine));
@@ -214,8 +226,9 @@ class Cut : public CanvasGesture {
         steps.push_back([link = *link](const Document& d, const Registry& r) {
           return disconnect(d, r, std::get<0>(link), std::get<1>(link), std::get<2>(link));
         });
-      return one_after_another(document, registry,
-                               cut_.size() == 1 ? "Cut a link" : "Cut " + std::to_string(cut_.size()) + " links", steps);
+      return one_after_another(
+          document, registry,
+          cut_.size() == 1 ? "Cut a link" : "Cut " + std::to_string(cut_.size()) + " links", steps);
     });
   }
   void paint(QPainter& p) override {
@@ -252,7 +265,8 @@ std::unique_ptr<CanvasGesture> move_gesture(GraphCanvas& canvas, QPointF view, s
                                             std::set<std::string> notes, bool take_out) {
   return std::make_unique<Move>(canvas, view, std::move(nodes), std::move(notes), take_out);
 }
-std::unique_ptr<CanvasGesture> resize_note_gesture(GraphCanvas& canvas, QPointF view, const std::string& note) {
+std::unique_ptr<CanvasGesture> resize_note_gesture(GraphCanvas& canvas, QPointF view,
+                                                   const std::string& note) {
   return std::make_unique<ResizeNote>(canvas, view, note);
 }
 std::unique_ptr<CanvasGesture> cut_gesture(GraphCanvas& canvas, QPointF view) {

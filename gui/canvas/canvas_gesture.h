@@ -1,5 +1,5 @@
-// What the mouse does on the canvas from press to release, one class a gesture. Nothing is edited before the release, so
-// that Escape can cancel, and each is one undo step.
+// What the mouse does on the canvas from press to release, one class a gesture. Nothing is edited before the
+// release, so that Escape can cancel, and each is one undo step.
 #pragma once
 #include <QPainter>
 #include <memory>

@@ -1,12 +1,12 @@
 // What mouse, wheel and dropped files begin on the canvas.
+#include <QDir>
+#include <QFileInfo>
 #include <QHelpEvent>
 #include <QMenu>
 #include <QMimeData>
 #include <QMouseEvent>
 #include <QToolTip>
 #include <QUrl>
-#include <QDir>
-#include <QFileInfo>
 #include <cmath>
 
 #include "graph/file/read.h"
@@ -34,7 +34,8 @@ void GraphCanvas::press_left(QMouseEvent* event, QPointF at) {
   const SceneNode* node = scene_.node_at(at);
   // A small dot is all port: its middle moves it, its right edge starts a wire.
   const bool on_dot = node && node->dot && std::abs(at.x() - node->rect.center().x()) < 6;
-  if (port && !on_dot && !(keys & (Qt::ControlModifier | Qt::AltModifier))) return begin(wire_gesture(*this, *port));
+  if (port && !on_dot && !(keys & (Qt::ControlModifier | Qt::AltModifier)))
+    return begin(wire_gesture(*this, *port));
   if (node) {
     if (node->expandable && zoom_ >= 0.6 && node->more.contains(at - node->rect.topLeft()) && !keys) {
       if (!expanded_.erase(node->name)) expanded_.insert(node->name);
@@ -70,9 +71,12 @@ void GraphCanvas::press_left(QMouseEvent* event, QPointF at) {
     const SceneWire on = *wire;
     session_.perform([&](const Document& document, const Registry& registry) {
       std::string name;
-      std::vector<EditStep> steps{
-          [&](const Document& d, const Registry& r) { return add_new_node(d, r, {"Dot", at - QPointF(10, 10), {}, {}}, &name); },
-          [&](const Document& d, const Registry& r) { return insert_on_link(d, r, name, on.to, on.to_port, on.index); }};
+      std::vector<EditStep> steps{[&](const Document& d, const Registry& r) {
+                                    return add_new_node(d, r, {"Dot", at - QPointF(10, 10), {}, {}}, &name);
+                                  },
+                                  [&](const Document& d, const Registry& r) {
+                                    return insert_on_link(d, r, name, on.to, on.to_port, on.index);
+                                  }};
       return one_after_another(document, registry, "Add a dot", steps);
     });
     return;
@@ -105,7 +109,8 @@ void GraphCanvas::mouseMoveEvent(QMouseEvent* event) {
     setCursor(gesture_->cursor());
     return;
   }
-  if ((event->buttons() & Qt::LeftButton) && !mini_map_rect().isNull() && mini_map_rect().contains(event->position())) {
+  if ((event->buttons() & Qt::LeftButton) && !mini_map_rect().isNull() &&
+      mini_map_rect().contains(event->position())) {
     pan_ += QRectF(rect()).center() - to_view(mini_map_to_graph(event->position()));
     moving();
     return;
@@ -138,8 +143,9 @@ void GraphCanvas::hover(QPointF view) {
     if (spot && !spot->type.empty()) text += " · " + QString::fromStdString(spot->type);
     if (spot && !spot->help.isEmpty()) text += " · " + spot->help;
   } else if (const SceneWire* wire = scene_.node_at(at) ? nullptr : scene_.wire_at(at, 6 / zoom_)) {
-    text = QString::fromStdString(wire->from + "." + wire->from_port + " → " + wire->to + "." + wire->to_port) +
-           tr(" · Ctrl+click puts a dot, Ctrl+drag cuts");
+    text =
+        QString::fromStdString(wire->from + "." + wire->from_port + " → " + wire->to + "." + wire->to_port) +
+        tr(" · Ctrl+click puts a dot, Ctrl+drag cuts");
   }
   emit hovered_text(text);
 }
@@ -192,8 +198,10 @@ void GraphCanvas::wheelEvent(QWheelEvent* event) {
 
 void GraphCanvas::contextMenuEvent(QContextMenuEvent* event) {
   if (gesture_) return;
-  const QPointF at = to_graph(event->reason() == QContextMenuEvent::Mouse ? QPointF(event->pos()) : QRectF(rect()).center());
-  const SceneNode* node = event->reason() == QContextMenuEvent::Mouse ? scene_.node_at(at) : scene_.node(session_.current());
+  const QPointF at =
+      to_graph(event->reason() == QContextMenuEvent::Mouse ? QPointF(event->pos()) : QRectF(rect()).center());
+  const SceneNode* node =
+      event->reason() == QContextMenuEvent::Mouse ? scene_.node_at(at) : scene_.node(session_.current());
   QMenu menu(this);
   if (node) {
     if (!session_.selected().count(node->name)) session_.select({node->name}, node->name);
@@ -302,14 +310,21 @@ void GraphCanvas::keyPressEvent(QKeyEvent* event) {
       space_ = true;
       setCursor(Qt::OpenHandCursor);
       return;
-    case Qt::Key_Left: return control ? nudge(-1, 0) : walk(-1, 0);
-    case Qt::Key_Right: return control ? nudge(1, 0) : walk(1, 0);
-    case Qt::Key_Up: return control ? nudge(0, -1) : walk(0, -1);
-    case Qt::Key_Down: return control ? nudge(0, 1) : walk(0, 1);
+    case Qt::Key_Left:
+      return control ? nudge(-1, 0) : walk(-1, 0);
+    case Qt::Key_Right:
+      return control ? nudge(1, 0) : walk(1, 0);
+    case Qt::Key_Up:
+      return control ? nudge(0, -1) : walk(0, -1);
+    case Qt::Key_Down:
+      return control ? nudge(0, 1) : walk(0, 1);
     case Qt::Key_Plus:
-    case Qt::Key_Equal: return zoom_at(QRectF(rect()).center(), 1);
-    case Qt::Key_Minus: return zoom_at(QRectF(rect()).center(), -1);
-    default: QWidget::keyPressEvent(event);
+    case Qt::Key_Equal:
+      return zoom_at(QRectF(rect()).center(), 1);
+    case Qt::Key_Minus:
+      return zoom_at(QRectF(rect()).center(), -1);
+    default:
+      QWidget::keyPressEvent(event);
   }
 }
 

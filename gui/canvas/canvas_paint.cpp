@@ -67,7 +67,8 @@ void GraphCanvas::paint_frames(QPainter& p) {
     p.drawRoundedRect(box, 8, 8);
     p.setFont(ui_font(lettering, true));
     p.setPen(theme_->text);
-    p.drawText(QRectF(box.left() + 10, box.top(), box.width() - 20, 30 * zoom_ < lettering + 4 ? lettering + 4 : 30 * zoom_),
+    p.drawText(QRectF(box.left() + 10, box.top(), box.width() - 20,
+                      30 * zoom_ < lettering + 4 ? lettering + 4 : 30 * zoom_),
                Qt::AlignVCenter | Qt::TextSingleLine, frame.title);
   }
   for (const SceneNote& note : scene_.notes()) {
@@ -124,8 +125,10 @@ void GraphCanvas::paint_nodes(QPainter& p, const QRectF& seen) {
     const QRectF box(at, node.rect.size() * zoom_);
     if (status && status->state == NodeStatus::State::running && !node.dot) {
       const double full = box.width() - 12 * zoom_;
-      p.fillRect(QRectF(box.left() + 6 * zoom_, box.bottom() - 4 * zoom_, full, std::max(2.0, 2.5 * zoom_)), theme_->line);
-      p.fillRect(QRectF(box.left() + 6 * zoom_, box.bottom() - 4 * zoom_, full * status->progress, std::max(2.0, 2.5 * zoom_)),
+      p.fillRect(QRectF(box.left() + 6 * zoom_, box.bottom() - 4 * zoom_, full, std::max(2.0, 2.5 * zoom_)),
+                 theme_->line);
+      p.fillRect(QRectF(box.left() + 6 * zoom_, box.bottom() - 4 * zoom_, full * status->progress,
+                        std::max(2.0, 2.5 * zoom_)),
                  theme_->running);
     }
     if (session_.selected().count(node.name)) {
@@ -139,8 +142,9 @@ void GraphCanvas::paint_nodes(QPainter& p, const QRectF& seen) {
     if (const SceneNode* node = scene_.node(hover_->node))
       if (const ScenePort* port = node->port(hover_->input, hover_->port)) {
         p.setRenderHint(QPainter::Antialiasing);
-        draw_port(p, to_view(node->rect.topLeft() + port->at), 7 * std::max(0.6, zoom_), Theme::shape(port->type),
-                  port->type.empty() ? theme_->wire : theme_->port(port->type), theme_->canvas, true);
+        draw_port(p, to_view(node->rect.topLeft() + port->at), 7 * std::max(0.6, zoom_),
+                  Theme::shape(port->type), port->type.empty() ? theme_->wire : theme_->port(port->type),
+                  theme_->canvas, true);
       }
   }
 }
@@ -160,7 +164,8 @@ void GraphCanvas::paint_mini_map(QPainter& p) {
   p.setClipRect(map.adjusted(1, 1, -1, -1));
   p.setRenderHint(QPainter::Antialiasing, false);
   for (const SceneNode& node : scene_.nodes()) {
-    const QRectF box(place(node.rect.topLeft()), QSizeF(std::max(2.0, node.rect.width() * scale), std::max(2.0, node.rect.height() * scale)));
+    const QRectF box(place(node.rect.topLeft()), QSizeF(std::max(2.0, node.rect.width() * scale),
+                                                        std::max(2.0, node.rect.height() * scale)));
     p.fillRect(box, session_.selected().count(node.name) ? theme_->accent : theme_->wire);
   }
   p.setPen(QPen(theme_->accent, 1));
@@ -174,7 +179,8 @@ void GraphCanvas::paint_empty_hint(QPainter& p) {
   const QPointF middle = box.center();
   p.setPen(theme_->text);
   p.setFont(ui_font(19, true));
-  p.drawText(QRectF(box.left(), middle.y() - 92, box.width(), 30), Qt::AlignCenter, tr("This graph is empty"));
+  p.drawText(QRectF(box.left(), middle.y() - 92, box.width(), 30), Qt::AlignCenter,
+             tr("This graph is empty"));
   const std::pair<QString, QString> lines[] = {
       {tr("Tab"), tr("add a node by its name")},
       {tr("Drop"), tr("a motion file here to load it")},

@@ -14,10 +14,15 @@ constexpr int rest_after_ms = 120;
 }  // namespace
 
 GraphCanvas::GraphCanvas(Session& session, Evaluation& evaluation, QWidget* parent)
-    : QWidget(parent), session_(session), evaluation_(evaluation), theme_(&dark_theme()), search_(new SearchBox(this)) {
+    : QWidget(parent),
+      session_(session),
+      evaluation_(evaluation),
+      theme_(&dark_theme()),
+      search_(new SearchBox(this)) {
   setObjectName("canvas");
   setAccessibleName(tr("Graph"));
-  setAccessibleDescription(tr("Nodes and the links between them. Tab adds a node, arrow keys walk along links."));
+  setAccessibleDescription(
+      tr("Nodes and the links between them. Tab adds a node, arrow keys walk along links."));
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setAcceptDrops(true);
@@ -54,7 +59,8 @@ void GraphCanvas::set_theme(const Theme& theme) {
 
 void GraphCanvas::rebuild() {
   scene_.rebuild(session_.document(), session_.registry(), expanded_);
-  std::erase_if(selected_frames_, [&](const auto& name) { return !session_.document().ui.frames.count(name); });
+  std::erase_if(selected_frames_,
+                [&](const auto& name) { return !session_.document().ui.frames.count(name); });
   std::erase_if(selected_notes_, [&](const auto& name) { return !session_.document().ui.notes.count(name); });
   pixmaps_.forget();
   update();
@@ -100,7 +106,8 @@ void GraphCanvas::show_rect(QRectF graph) {
   if (graph.isNull()) graph = QRectF(-200, -120, 400, 240);
   const QSizeF room(std::max(50.0, width() - 60.0), std::max(50.0, height() - 60.0));
   const double fit = std::min({room.width() / graph.width(), room.height() / graph.height(), 1.0});
-  zoom_step_ = std::clamp(int(std::floor(std::log2(fit) * steps_a_doubling + 1e-6)), smallest_step, largest_step);
+  zoom_step_ =
+      std::clamp(int(std::floor(std::log2(fit) * steps_a_doubling + 1e-6)), smallest_step, largest_step);
   zoom_ = std::pow(2.0, double(zoom_step_) / steps_a_doubling);
   pan_ = QRectF(rect()).center() - graph.center() * zoom_;
   framed_once_ = true;
@@ -150,7 +157,9 @@ void GraphCanvas::resizeEvent(QResizeEvent* event) {
   if (!framed_once_ || event->oldSize().isEmpty())
     show_rect(scene_.bounds());
   else
-    pan_ += QPointF(event->size().width() - event->oldSize().width(), event->size().height() - event->oldSize().height()) / 2;
+    pan_ += QPointF(event->size().width() - event->oldSize().width(),
+                    event->size().height() - event->oldSize().height()) /
+            2;
   framed_once_ = isVisible();
   search_->cancel();
 }
@@ -171,7 +180,8 @@ void GraphCanvas::edit_text(QRectF graph, const QString& text, std::function<voi
   edit->setPlainText(text);
   edit->selectAll();
   const QRect place = QRectF(to_view(graph.topLeft()), to_view(graph.bottomRight())).toRect();
-  edit->setGeometry(QRect(place.topLeft(), QSize(std::max(160, place.width()), std::max(36, place.height()))));
+  edit->setGeometry(
+      QRect(place.topLeft(), QSize(std::max(160, place.width()), std::max(36, place.height()))));
   edit->setToolTip(tr("Ctrl+Enter or a click beside it keeps the text, Escape leaves it as it was"));
   edit->show();
   edit->setFocus();

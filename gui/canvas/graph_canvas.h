@@ -1,5 +1,5 @@
-// The node canvas: shows a session's graph and edits it by mouse and keyboard. Pans and zooms by drawing pictures of
-// nodes; evaluates nothing.
+// The node canvas: shows a session's graph and edits it by mouse and keyboard. Pans and zooms by drawing
+// pictures of nodes; evaluates nothing.
 #pragma once
 #include <QTimer>
 #include <QWidget>
@@ -36,7 +36,7 @@ class GraphCanvas : public QWidget {
   QPointF to_graph(QPointF view) const { return (view - pan_) / zoom_; }
   void pan_by(QPointF pixels);
   void zoom_at(QPointF view, int steps);
-  void show_rect(QRectF graph);      // as large as fits, at most at zoom 1
+  void show_rect(QRectF graph);  // as large as fits, at most at zoom 1
   void make_visible(const std::string& node);
 
   // Selected frames and notes; nodes are selected in the session.

@@ -1,5 +1,5 @@
-// What the canvas shows, worked out from a document: boxes with ports and values, wires as polylines, frames and
-// notes. Lengths are graph units: pixels at zoom 1. Positions are those saved under `ui`.
+// What the canvas shows, worked out from a document: boxes with ports and values, wires as polylines, frames
+// and notes. Lengths are graph units: pixels at zoom 1. Positions are those saved under `ui`.
 #pragma once
 #include <QPolygonF>
 #include <QRectF>
@@ -17,9 +17,10 @@ namespace kinegraph {
 
 struct ScenePort {
   std::string name;
-  std::string type;  // the colour and shape: of an output what comes out, of an input the usual type; "" = any
+  std::string
+      type;  // the colour and shape: of an output what comes out, of an input the usual type; "" = any
   QString help;
-  QPointF at;        // relative to the node's top left
+  QPointF at;  // relative to the node's top left
   bool list = false, optional = false, linked = false;
 };
 
@@ -52,7 +53,7 @@ struct SceneWire {
 struct SceneFrame {
   std::string name;
   QString title, color;
-  QRectF rect;   // around its nodes
+  QRectF rect;  // around its nodes
   QRectF title_bar;
   std::vector<std::string> nodes;
 };
@@ -115,7 +116,7 @@ double distance_to(const QPolygonF& line, QPointF at);
 
 // Positions of `ui` entries; nothing where there is none.
 std::optional<QPointF> point_of(const Json* entry, std::string_view key);
-Json json_of(QPointF point);  // rounded to whole numbers
+Json json_of(QPointF point);                                    // rounded to whole numbers
 QString shown_value(const ParamType& type, const Json& value);  // short, for the node's body
 
 }  // namespace kinegraph

@@ -32,7 +32,8 @@ QPolygonF ring_of_corners(int corners, double radius, double turned) {
   return polygon;
 }
 
-// The families have a colour each, a thin bar above the title, so that a graph's parts are told apart from afar.
+// The families have a colour each, a thin bar above the title, so that a graph's parts are told apart from
+// afar.
 QColor family_color(const Theme& theme, const SceneNode& node) {
   if (!node.color.isEmpty()) {
     const QColor own(node.color);
@@ -40,7 +41,7 @@ QColor family_color(const Theme& theme, const SceneNode& node) {
   }
   if (node.missing) return theme.missing;
   static const std::map<std::string, const char*> types{
-      {"files", "Metrics"}, {"motion", "Motion"},       {"time", "Warp"},         {"style", "Stats"},
+      {"files", "Metrics"}, {"motion", "Motion"},         {"time", "Warp"},         {"style", "Stats"},
       {"feet", "Contacts"}, {"components", "Components"}, {"cartoon", "Character"}, {"judge", "Points"}};
   auto found = types.find(node.category);
   return found == types.end() ? theme.wire : theme.port(found->second);
@@ -72,18 +73,30 @@ void draw_port(QPainter& p, QPointF at, double r, Theme::Shape shape, const QCol
   p.setBrush(filled ? color : hole);
   using Shape = Theme::Shape;
   switch (shape) {
-    case Shape::circle: p.drawEllipse(QPointF(), r, r); break;
+    case Shape::circle:
+      p.drawEllipse(QPointF(), r, r);
+      break;
     case Shape::ring:
       p.drawEllipse(QPointF(), r, r);
       p.setBrush(filled ? hole : color);
       p.setPen(Qt::NoPen);
       p.drawEllipse(QPointF(), r * 0.4, r * 0.4);
       break;
-    case Shape::square: p.drawRect(QRectF(-r * 0.9, -r * 0.9, r * 1.8, r * 1.8)); break;
-    case Shape::diamond: p.drawPolygon(ring_of_corners(4, r * 1.2, 0)); break;
-    case Shape::triangle: p.drawPolygon(ring_of_corners(3, r * 1.25, 0)); break;
-    case Shape::hexagon: p.drawPolygon(ring_of_corners(6, r * 1.1, 0)); break;
-    case Shape::bar: p.drawRect(QRectF(-r * 0.55, -r * 1.15, r * 1.1, r * 2.3)); break;
+    case Shape::square:
+      p.drawRect(QRectF(-r * 0.9, -r * 0.9, r * 1.8, r * 1.8));
+      break;
+    case Shape::diamond:
+      p.drawPolygon(ring_of_corners(4, r * 1.2, 0));
+      break;
+    case Shape::triangle:
+      p.drawPolygon(ring_of_corners(3, r * 1.25, 0));
+      break;
+    case Shape::hexagon:
+      p.drawPolygon(ring_of_corners(6, r * 1.1, 0));
+      break;
+    case Shape::bar:
+      p.drawRect(QRectF(-r * 0.55, -r * 1.15, r * 1.1, r * 2.3));
+      break;
     case Shape::star: {
       QPolygonF star;
       for (int i = 0; i < 10; ++i) {
@@ -107,15 +120,24 @@ QString shown_seconds(double seconds) {
 QString shown_state(NodeStatus::State state) {
   using State = NodeStatus::State;
   switch (state) {
-    case State::idle: return QObject::tr("not asked for");
-    case State::waiting: return QObject::tr("waiting");
-    case State::running: return QObject::tr("running");
-    case State::done: return QObject::tr("up to date");
-    case State::failed: return QObject::tr("failed");
-    case State::blocked: return QObject::tr("blocked");
-    case State::cancelled: return QObject::tr("cancelled");
-    case State::disabled: return QObject::tr("disabled");
-    case State::missing: return QObject::tr("missing");
+    case State::idle:
+      return QObject::tr("not asked for");
+    case State::waiting:
+      return QObject::tr("waiting");
+    case State::running:
+      return QObject::tr("running");
+    case State::done:
+      return QObject::tr("up to date");
+    case State::failed:
+      return QObject::tr("failed");
+    case State::blocked:
+      return QObject::tr("blocked");
+    case State::cancelled:
+      return QObject::tr("cancelled");
+    case State::disabled:
+      return QObject::tr("disabled");
+    case State::missing:
+      return QObject::tr("missing");
   }
   return {};
 }
@@ -123,12 +145,18 @@ QString shown_state(NodeStatus::State state) {
 QColor state_color(const Theme& theme, NodeStatus::State state) {
   using State = NodeStatus::State;
   switch (state) {
-    case State::running: return theme.running;
-    case State::done: return theme.good;
-    case State::failed: return theme.error;
-    case State::blocked: return theme.warning;
-    case State::missing: return theme.missing;
-    default: return theme.faint_text;
+    case State::running:
+      return theme.running;
+    case State::done:
+      return theme.good;
+    case State::failed:
+      return theme.error;
+    case State::blocked:
+      return theme.warning;
+    case State::missing:
+      return theme.missing;
+    default:
+      return theme.faint_text;
   }
 }
 
@@ -142,7 +170,10 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
     return;
   }
   using State = NodeStatus::State;
-  const State state = node.missing ? State::missing : !node.enabled ? State::disabled : status ? status->state : State::idle;
+  const State state = node.missing    ? State::missing
+                      : !node.enabled ? State::disabled
+                      : status        ? status->state
+                                      : State::idle;
   const QRectF box(QPointF(0.5, 0.5), node.rect.size() - QSizeF(1, 1));
   const QColor family = family_color(theme, node);
   const bool small = zoom < 0.6;
@@ -157,7 +188,8 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
   QColor title = theme.node_title;
   if (!node.color.isEmpty() && QColor(node.color).isValid()) {
     const QColor own(node.color);
-    title = QColor::fromRgbF(title.redF() * 0.65f + own.redF() * 0.35f, title.greenF() * 0.65f + own.greenF() * 0.35f,
+    title = QColor::fromRgbF(title.redF() * 0.65f + own.redF() * 0.35f,
+                             title.greenF() * 0.65f + own.greenF() * 0.35f,
                              title.blueF() * 0.65f + own.blueF() * 0.35f);
   }
   if (!node.enabled) title.setAlphaF(0.55f);
@@ -197,14 +229,16 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
     p.setPen(theme.faint_text);
     QString right;
     if (state == State::done && status)
-      right = status->cached == "memory" || status->cached == "disk" ? QObject::tr("cached") : shown_seconds(status->seconds);
+      right = status->cached == "memory" || status->cached == "disk" ? QObject::tr("cached")
+                                                                     : shown_seconds(status->seconds);
     else if (state != State::idle)
       right = shown_state(state);
     const double right_width = right.isEmpty() ? 0 : QFontMetricsF(p.font()).horizontalAdvance(right) + 4;
     draw_text(p, QRectF(12, 21, box.width() - 28 - right_width, 16), Qt::AlignLeft,
               QString::fromStdString(node.type));
     if (!right.isEmpty()) {
-      if (state == State::failed || state == State::blocked || state == State::missing) p.setPen(state_color(theme, state));
+      if (state == State::failed || state == State::blocked || state == State::missing)
+        p.setPen(state_color(theme, state));
       draw_text(p, QRectF(box.width() - 12 - right_width, 21, right_width, 16), Qt::AlignRight, right);
     }
     const QPointF badge(box.width() - 16, 14);
@@ -223,7 +257,8 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
     for (const bool input : {true, false})
       for (const ScenePort& port : input ? node.inputs : node.outputs) {
         p.setPen(port.linked || !port.optional ? ink : theme.faint_text);
-        const double half = node.inputs.empty() || node.outputs.empty() ? box.width() - 24 : box.width() / 2 - 10;
+        const double half =
+            node.inputs.empty() || node.outputs.empty() ? box.width() - 24 : box.width() / 2 - 10;
         const QRectF label(input ? 12 : box.width() - 12 - half, port.at.y() - 9, half, 18);
         draw_text(p, label, input ? Qt::AlignLeft : Qt::AlignRight,
                   QString::fromStdString(port.name) + (port.list ? " …" : ""));
@@ -231,8 +266,9 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
     if (node.expandable) {
       p.setPen(theme.faint_text);
       p.setFont(font_of(11));
-      draw_text(p, node.more.adjusted(12, 0, -12, 0), Qt::AlignHCenter,
-                node.expanded ? QObject::tr("show fewer") : QObject::tr("+ %1 more ports").arg(node.hidden_ports));
+      draw_text(
+          p, node.more.adjusted(12, 0, -12, 0), Qt::AlignHCenter,
+          node.expanded ? QObject::tr("show fewer") : QObject::tr("+ %1 more ports").arg(node.hidden_ports));
     }
     if (!node.values.empty()) {
       double y = box.height() - 5 - 17.0 * double(node.values.size());
@@ -244,7 +280,8 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
         p.setPen(theme.faint_text);
         draw_text(p, QRectF(12, y, name_width, 17), Qt::AlignLeft, value.name);
         p.setPen(ink);
-        draw_text(p, QRectF(12 + name_width, y, box.width() - 24 - name_width, 17), Qt::AlignRight, value.value);
+        draw_text(p, QRectF(12 + name_width, y, box.width() - 24 - name_width, 17), Qt::AlignRight,
+                  value.value);
         y += 17;
       }
     }
@@ -252,8 +289,8 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
   const double radius = small ? std::min(5.0, 3.2 / zoom) : 5;
   for (const bool input : {true, false})
     for (const ScenePort& port : input ? node.inputs : node.outputs)
-      draw_port(p, port.at, radius, Theme::shape(port.type), port.type.empty() ? theme.wire : theme.port(port.type),
-                theme.canvas, port.linked);
+      draw_port(p, port.at, radius, Theme::shape(port.type),
+                port.type.empty() ? theme.wire : theme.port(port.type), theme.canvas, port.linked);
   p.restore();
 }
 

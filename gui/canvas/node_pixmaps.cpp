@@ -28,7 +28,8 @@ void NodePixmaps::draw(QPainter& painter, QPointF at, const SceneNode& node, con
   const bool wanted = !picture.fresh || picture.zoom != zoom_;
   if (wanted && (picture.pixmap.isNull() || double(clock_.nsecsElapsed()) < budget_ms_ * 1e6)) {
     const QSizeF size = (node.rect.size() + QSizeF(2 * margin, 2 * margin)) * zoom_;
-    picture.pixmap = QPixmap(QSize(int(std::ceil(size.width() * ratio_)), int(std::ceil(size.height() * ratio_))));
+    picture.pixmap =
+        QPixmap(QSize(int(std::ceil(size.width() * ratio_)), int(std::ceil(size.height() * ratio_))));
     picture.pixmap.setDevicePixelRatio(ratio_);
     picture.pixmap.fill(Qt::transparent);
     QPainter inside(&picture.pixmap);

@@ -16,7 +16,8 @@ class NodePixmaps {
   // Nodes look otherwise now: all of them, or one.
   void forget();
   void forget(const std::string& node);
-  // `budget_ms`: how long new pictures may be drawn for until the next begin(); after that an old one is scaled.
+  // `budget_ms`: how long new pictures may be drawn for until the next begin(); after that an old one is
+  // scaled.
   void begin(double zoom, double device_ratio, double budget_ms);
   // Draws it with its top left at `at` (pixels of the widget).
   void draw(QPainter& painter, QPointF at, const SceneNode& node, const NodeStatus* status,

@@ -69,12 +69,14 @@ SearchBox::SearchBox(QWidget* parent) : QFrame(parent) {
   connect(line_, &QLineEdit::textChanged, this, &SearchBox::filter);
   connect(list_, &QListWidget::itemClicked, this, [this] { choose(); });
   connect(list_, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
-    help_->setText(item ? entries_[std::size_t(item->data(index_role).toInt())].help : tr("Nothing of that name."));
+    help_->setText(item ? entries_[std::size_t(item->data(index_role).toInt())].help
+                        : tr("Nothing of that name."));
   });
   hide();
 }
 
-void SearchBox::open(QPoint at, const QString& prompt, std::vector<Entry> entries, std::function<void(int)> chosen) {
+void SearchBox::open(QPoint at, const QString& prompt, std::vector<Entry> entries,
+                     std::function<void(int)> chosen) {
   entries_ = std::move(entries);
   chosen_ = std::move(chosen);
   line_->setPlaceholderText(prompt);
@@ -103,7 +105,8 @@ void SearchBox::filter() {
   for (std::size_t i = 0; i < entries_.size(); ++i)
     if (const double score = fuzzy_score(line_->text(), entries_[i].name, entries_[i].keywords); score > 0)
       found.push_back({-score, int(i)});
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   list_->clear();
   for (const auto& [score, i] : found) {
     auto* item = new QListWidgetItem(entries_[std::size_t(i)].name);
@@ -142,15 +145,28 @@ bool SearchBox::eventFilter(QObject* watched, QEvent* event) {
   auto* key = static_cast<QKeyEvent*>(event);
   const int row = list_->currentRow(), last = list_->count() - 1;
   switch (key->key()) {
-    case Qt::Key_Down: list_->setCurrentRow(std::min(row + 1, last)); return true;
-    case Qt::Key_Up: list_->setCurrentRow(std::max(row - 1, 0)); return true;
-    case Qt::Key_PageDown: list_->setCurrentRow(std::min(row + 8, last)); return true;
-    case Qt::Key_PageUp: list_->setCurrentRow(std::max(row - 8, 0)); return true;
+    case Qt::Key_Down:
+      list_->setCurrentRow(std::min(row + 1, last));
+      return true;
+    case Qt::Key_Up:
+      list_->setCurrentRow(std::max(row - 1, 0));
+      return true;
+    case Qt::Key_PageDown:
+      list_->setCurrentRow(std::min(row + 8, last));
+      return true;
+    case Qt::Key_PageUp:
+      list_->setCurrentRow(std::max(row - 8, 0));
+      return true;
     case Qt::Key_Return:
     case Qt::Key_Enter:
-    case Qt::Key_Tab: choose(); return true;
-    case Qt::Key_Escape: cancel(); return true;
-    default: return QFrame::eventFilter(watched, event);
+    case Qt::Key_Tab:
+      choose();
+      return true;
+    case Qt::Key_Escape:
+      cancel();
+      return true;
+    default:
+      return QFrame::eventFilter(watched, event);
   }
 }
 

@@ -1,5 +1,5 @@
-// A line to type into with a list of what fits below it: search-to-add, and find a node. It lies over the canvas as a
-// child of it, so that it needs no window of its own.
+// A line to type into with a list of what fits below it: search-to-add, and find a node. It lies over the
+// canvas as a child of it, so that it needs no window of its own.
 #pragma once
 #include <QFrame>
 #include <QLabel>

@@ -25,7 +25,8 @@ class DragWire : public CanvasGesture {
     for (const SceneNode& node : canvas.scene().nodes())
       for (const ScenePort& one : from_.input ? node.outputs : node.inputs) {
         const PortAt other{node.name, one.name, !from_.input};
-        if (objection(document, canvas.session().registry(), from_, other).isEmpty()) fitting_.push_back(other);
+        if (objection(document, canvas.session().registry(), from_, other).isEmpty())
+          fitting_.push_back(other);
       }
     end_ = canvas.to_view(canvas.scene().port_position(port));
   }
@@ -38,7 +39,8 @@ class DragWire : public CanvasGesture {
     const Document& document = canvas_.session().document();
     const Registry& registry = canvas_.session().registry();
     auto port = canvas_.scene().port_at(at, 14 / std::min(1.0, canvas_.zoom()));
-    if (port && port->node == from_.node && port->port == from_.port && port->input == from_.input) port.reset();
+    if (port && port->node == from_.node && port->port == from_.port && port->input == from_.input)
+      port.reset();
     if (port && picked_up_ && *port == *picked_up_) {
       target_ = port;
     } else if (port) {
@@ -46,7 +48,8 @@ class DragWire : public CanvasGesture {
       if (refusal_.isEmpty()) target_ = port;
     } else if (const SceneNode* node = canvas_.scene().node_at(at); node && node->name != from_.node) {
       target_ = fitting_port(document, registry, from_, node->name);
-      if (!target_) refusal_ = QObject::tr("%1 has no port that fits.").arg(QString::fromStdString(node->name));
+      if (!target_)
+        refusal_ = QObject::tr("%1 has no port that fits.").arg(QString::fromStdString(node->name));
     }
     if (!refusal_.isEmpty())
       canvas_.set_hint(refusal_, view, true);
@@ -54,7 +57,8 @@ class DragWire : public CanvasGesture {
       canvas_.set_hint(QString::fromStdString(target_->node + "." + target_->port), view, false);
     else
       canvas_.set_hint(picked_up_ ? QObject::tr("let go to take the link off")
-                                  : QObject::tr("let go to choose a node that fits"), view, false);
+                                  : QObject::tr("let go to choose a node that fits"),
+                       view, false);
     canvas_.update();
   }
 
@@ -69,13 +73,15 @@ class DragWire : public CanvasGesture {
           return disconnect(d, r, picked_up_->node, picked_up_->port);
         }};
         if (target_)
-          steps.push_back([&](const Document& d, const Registry& r) { return link_ports(d, r, from_, *target_); });
+          steps.push_back(
+              [&](const Document& d, const Registry& r) { return link_ports(d, r, from_, *target_); });
         return one_after_another(document, registry, target_ ? "Move a link" : "Take a link off", steps);
       });
       return;
     }
     if (target_) {
-      session.perform([&](const Document& d, const Registry& r) { return link_ports(d, r, from_, *target_); });
+      session.perform(
+          [&](const Document& d, const Registry& r) { return link_ports(d, r, from_, *target_); });
       return;
     }
     if (!QRectF(canvas_.rect()).contains(view)) return;
@@ -94,12 +100,14 @@ class DragWire : public CanvasGesture {
       halo.setAlpha(port == target_ ? 200 : 90);
       p.setPen(Qt::NoPen);
       p.setBrush(halo);
-      p.drawEllipse(canvas_.to_view(canvas_.scene().port_position(port)), 10 * std::max(zoom, 0.5), 10 * std::max(zoom, 0.5));
+      p.drawEllipse(canvas_.to_view(canvas_.scene().port_position(port)), 10 * std::max(zoom, 0.5),
+                    10 * std::max(zoom, 0.5));
       const SceneNode* node = canvas_.scene().node(port.node);
       const ScenePort* spot = node ? node->port(port.input, port.port) : nullptr;
       if (spot)
-        draw_port(p, canvas_.to_view(node->rect.topLeft() + spot->at), 5 * std::max(zoom, 0.5), Theme::shape(spot->type),
-                  spot->type.empty() ? theme.wire : theme.port(spot->type), theme.canvas, spot->linked);
+        draw_port(p, canvas_.to_view(node->rect.topLeft() + spot->at), 5 * std::max(zoom, 0.5),
+                  Theme::shape(spot->type), spot->type.empty() ? theme.wire : theme.port(spot->type),
+                  theme.canvas, spot->linked);
     }
     QPointF start = canvas_.scene().port_position(from_);
     QPointF end = target_ ? canvas_.scene().port_position(*target_) : canvas_.to_graph(end_);
@@ -108,12 +116,15 @@ class DragWire : public CanvasGesture {
     QColor color = port && !port->type.empty() ? theme.port(port->type) : theme.wire;
     if (!refusal_.isEmpty()) color = theme.error;
     QPolygonF line;
-    for (const QPointF& point : from_.input ? wire_curve(end, start) : wire_curve(start, end)) line << canvas_.to_view(point);
+    for (const QPointF& point : from_.input ? wire_curve(end, start) : wire_curve(start, end))
+      line << canvas_.to_view(point);
     p.setBrush(Qt::NoBrush);
     p.setPen(QPen(color, 2.5, target_ || !refusal_.isEmpty() ? Qt::SolidLine : Qt::DashLine));
     p.drawPolyline(line);
   }
-  Qt::CursorShape cursor() const override { return refusal_.isEmpty() ? Qt::CrossCursor : Qt::ForbiddenCursor; }
+  Qt::CursorShape cursor() const override {
+    return refusal_.isEmpty() ? Qt::CrossCursor : Qt::ForbiddenCursor;
+  }
 
  private:
   PortAt from_;

@@ -5,7 +5,8 @@
 
 namespace kinegraph {
 
-// + - * / ^ and brackets, with a decimal point or comma; nothing where it is no such expression or isn't finite.
+// + - * / ^ and brackets, with a decimal point or comma; nothing where it is no such expression or isn't
+// finite.
 std::optional<double> calculated(const QString& text);
 
 }  // namespace kinegraph

@@ -32,7 +32,8 @@ class FileTree : public QTreeWidget {
   QMimeData* mimeData(const QList<QTreeWidgetItem*>& items) const override {
     QList<QUrl> urls;
     for (const QTreeWidgetItem* item : items)
-      if (const QString path = item->data(0, path_role).toString(); !path.isEmpty()) urls << QUrl::fromLocalFile(path);
+      if (const QString path = item->data(0, path_role).toString(); !path.isEmpty())
+        urls << QUrl::fromLocalFile(path);
     if (urls.isEmpty()) return nullptr;
     auto* paths = new QMimeData;
     paths->setUrls(urls);
@@ -53,7 +54,11 @@ QString examples_folder() {
 }
 
 FilesPanel::FilesPanel(Session& session, QWidget* parent)
-    : QWidget(parent), session_(session), theme_(&dark_theme()), filter_(new QLineEdit(this)), tree_(new FileTree(this)) {
+    : QWidget(parent),
+      session_(session),
+      theme_(&dark_theme()),
+      filter_(new QLineEdit(this)),
+      tree_(new FileTree(this)) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 8, 8, 8);
   filter_->setPlaceholderText(tr("Filter by name"));
@@ -112,7 +117,8 @@ void FilesPanel::fill() {
   const QString folder = examples_folder();
   if (!folder.isEmpty())
     for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"}, QDir::Files, QDir::Name))
-      add(examples, file.absoluteFilePath(), file.fileName().remove(".kg.json").replace('_', ' '), Sign::open);
+      add(examples, file.absoluteFilePath(), file.fileName().remove(".kg.json").replace('_', ' '),
+          Sign::open);
   // The clips beside the graph, or of the examples where there is no graph.
   const QString clips = session_.path().isEmpty() ? folder : folder_;
   auto* found = section(tr("Clips"));

@@ -1,5 +1,5 @@
-// The Files dock: graphs opened before, examples, and the clips beside the graph. A graph opens, a clip becomes a Load
-// by dragging it onto the canvas or by Enter.
+// The Files dock: graphs opened before, examples, and the clips beside the graph. A graph opens, a clip
+// becomes a Load by dragging it onto the canvas or by Enter.
 #pragma once
 #include <QTreeWidget>
 #include <QWidget>

@@ -26,7 +26,8 @@ class CalmSlider : public QSlider {
 
 class NumberField : public ParamField {
  public:
-  NumberField(const Param& param, QWidget* parent) : ParamField(parent), type_(param), line_(new QLineEdit(this)) {
+  NumberField(const Param& param, QWidget* parent)
+      : ParamField(parent), type_(param), line_(new QLineEdit(this)) {
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(6);
@@ -47,8 +48,7 @@ class NumberField : public ParamField {
     line_->setAccessibleName(name);
     line_->setAlignment(Qt::AlignRight);
     line_->installEventFilter(this);
-    if (slider_)
-      line_->setFixedWidth(76);
+    if (slider_) line_->setFixedWidth(76);
     row->addWidget(line_, slider_ ? 0 : 1);
     auto* unit = new QLabel(QString::fromStdString(param.unit), this);
     unit->setObjectName("faint");
@@ -77,8 +77,9 @@ class NumberField : public ParamField {
     if (slider_) {
       slider_->setEnabled(value.is_number());
       if (value.is_number() && !slider_->isSliderDown())
-        slider_->setValue(int(std::lround((std::clamp(value.number(), type_.soft_min, type_.soft_max) - type_.soft_min) /
-                                          span() * slider_->maximum())));
+        slider_->setValue(
+            int(std::lround((std::clamp(value.number(), type_.soft_min, type_.soft_max) - type_.soft_min) /
+                            span() * slider_->maximum())));
     }
     showing_ = false;
   }
@@ -91,7 +92,8 @@ class NumberField : public ParamField {
       const int key = static_cast<QKeyEvent*>(event)->key();
       if (key == Qt::Key_Up || key == Qt::Key_Down) {
         const auto now = calculated(line_->text());
-        if (now) send(std::clamp(rounded(*now + (key == Qt::Key_Up ? step() : -step())), type_.min, type_.max));
+        if (now)
+          send(std::clamp(rounded(*now + (key == Qt::Key_Up ? step() : -step())), type_.min, type_.max));
         return true;
       }
       if (key == Qt::Key_Escape) {
@@ -117,7 +119,8 @@ class NumberField : public ParamField {
     return grid < 1 ? steps / std::round(1 / grid) : steps * grid;
   }
   double from_slider(int at) const {
-    return std::clamp(rounded(type_.soft_min + span() * at / slider_->maximum()), type_.soft_min, type_.soft_max);
+    return std::clamp(rounded(type_.soft_min + span() * at / slider_->maximum()), type_.soft_min,
+                      type_.soft_max);
   }
   void send(double value) {
     const Json json = value;

@@ -98,7 +98,8 @@ class ChoiceField : public ParamField {
 
 class TextField : public ParamField {
  public:
-  TextField(const Param& param, QWidget* parent) : ParamField(parent), type_(param), line_(new QLineEdit(this)) {
+  TextField(const Param& param, QWidget* parent)
+      : ParamField(parent), type_(param), line_(new QLineEdit(this)) {
     row_of(this)->addWidget(line_);
     line_->setAccessibleName(QString::fromStdString(param.name));
     line_->setPlaceholderText(QString::fromStdString(described(param)));
@@ -126,8 +127,10 @@ class TextField : public ParamField {
 
 class FileField : public TextField {
  public:
-  FileField(const Param& param, const FieldContext& context, QWidget* parent) : TextField(param, parent), context_(context) {
-    line_->setPlaceholderText(param.kind == ParamType::Kind::open_file ? tr("no file") : tr("where to write"));
+  FileField(const Param& param, const FieldContext& context, QWidget* parent)
+      : TextField(param, parent), context_(context) {
+    line_->setPlaceholderText(param.kind == ParamType::Kind::open_file ? tr("no file")
+                                                                       : tr("where to write"));
     auto* button = new QToolButton(this);
     button->setText("…");
     button->setAccessibleName(tr("Choose a file for %1").arg(QString::fromStdString(param.name)));
@@ -159,7 +162,8 @@ class RangeField : public ParamField {
     start_->setPlaceholderText("0");
     end_->setPlaceholderText(tr("end"));
     setFocusProxy(start_);
-    for (QLineEdit* line : {start_, end_}) connect(line, &QLineEdit::editingFinished, this, [this] { send(); });
+    for (QLineEdit* line : {start_, end_})
+      connect(line, &QLineEdit::editingFinished, this, [this] { send(); });
   }
   void show_value(const Json& value) override {
     const bool pair = value.is_array() && value.array().size() == 2;
@@ -174,7 +178,8 @@ class RangeField : public ParamField {
  private:
   void send() {
     if (start_->text() + ":" + end_->text() == shown_) return;
-    const auto first = start_->text().trimmed().isEmpty() ? std::optional<double>(0) : calculated(start_->text());
+    const auto first =
+        start_->text().trimmed().isEmpty() ? std::optional<double>(0) : calculated(start_->text());
     const bool open = end_->text().trimmed().isEmpty() || end_->text().trimmed() == "end";
     const auto last = open ? std::optional<double>(0) : calculated(end_->text());
     if (!first || !last) {
@@ -238,16 +243,24 @@ ParamField* make_field(const Param& param, const FieldContext& context, QWidget*
   using Kind = ParamType::Kind;
   switch (param.kind) {
     case Kind::number:
-    case Kind::integer: return make_number_field(param, parent);
-    case Kind::boolean: return new BooleanField(param, parent);
-    case Kind::choice: return new ChoiceField(param, false, parent);
-    case Kind::unit: return new ChoiceField(param, true, parent);
-    case Kind::pattern: return make_pattern_field(param, context, parent);
-    case Kind::range: return new RangeField(param, parent);
+    case Kind::integer:
+      return make_number_field(param, parent);
+    case Kind::boolean:
+      return new BooleanField(param, parent);
+    case Kind::choice:
+      return new ChoiceField(param, false, parent);
+    case Kind::unit:
+      return new ChoiceField(param, true, parent);
+    case Kind::pattern:
+      return make_pattern_field(param, context, parent);
+    case Kind::range:
+      return new RangeField(param, parent);
     case Kind::open_file:
-    case Kind::save_file: return new FileField(param, context, parent);
+    case Kind::save_file:
+      return new FileField(param, context, parent);
     case Kind::list:
-    case Kind::table: return make_table_field(param, context, parent);
+    case Kind::table:
+      return make_table_field(param, context, parent);
     case Kind::either:
       if (is_choice_or_number(param)) {
         Param both = param;
@@ -255,7 +268,8 @@ ParamField* make_field(const Param& param, const FieldContext& context, QWidget*
         return new ChoiceField(both, true, parent);
       }
       return new TextField(param, parent);
-    default: return new TextField(param, parent);
+    default:
+      return new TextField(param, parent);
   }
 }
 

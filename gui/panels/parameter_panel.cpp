@@ -99,7 +99,8 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
   connect(note_, &QLineEdit::editingFinished, this, [this] {
     auto found = session_.document().nodes.find(node_);
     if (found == session_.document().nodes.end() || found->second.note == note_->text().toStdString()) return;
-    session_.perform([&](const Document& d, const Registry&) { return set_note(d, node_, note_->text().toStdString()); });
+    session_.perform(
+        [&](const Document& d, const Registry&) { return set_note(d, node_, note_->text().toStdString()); });
   });
   connect(&session_, &Session::selection_changed, this, &ParameterPanel::show_node);
   connect(&session_, &Session::changed, this, &ParameterPanel::show_node);
@@ -126,8 +127,9 @@ void ParameterPanel::show_node() {
   const auto found = session_.document().nodes.find(node_);
   const bool some = found != session_.document().nodes.end();
   static_cast<QStackedLayout*>(layout())->setCurrentIndex(some ? 1 : 0);
-  static_cast<QLabel*>(none_)->setText(session_.selected().size() > 1 ? tr("%1 nodes are selected.").arg(session_.selected().size())
-                                                                     : tr("Select a node to see its parameters."));
+  static_cast<QLabel*>(none_)->setText(session_.selected().size() > 1
+                                           ? tr("%1 nodes are selected.").arg(session_.selected().size())
+                                           : tr("Select a node to see its parameters."));
   if (!some) return;
   if (found->second.type != node_type_ || found->second.missing) {
     node_type_ = found->second.type;
@@ -137,8 +139,10 @@ void ParameterPanel::show_node() {
       build(*known);
     } else {
       node_type_.clear();
-      scroll_->setWidget(faint_label(tr("This node's type is not known to this Kinegraph. It is kept as it is and saved "
-                                        "back unchanged; install the version that made it to run it."), nullptr));
+      scroll_->setWidget(
+          faint_label(tr("This node's type is not known to this Kinegraph. It is kept as it is and saved "
+                         "back unchanged; install the version that made it to run it."),
+                      nullptr));
     }
   }
   refresh();
@@ -193,14 +197,18 @@ void ParameterPanel::build(const NodeType& known) {
     connect(row.field, &ParamField::drag_started, &session_, &Session::begin_gesture);
     connect(row.field, &ParamField::drag_ended, &session_, &Session::end_gesture);
     connect(row.field, &ParamField::wrong, this, [this, name](const QString& why) {
-      help_->setText(QString("<span style='color:%1'>%2</span>").arg(theme_->error.name(), (QString::fromStdString(name) + ": " + why).toHtmlEscaped()));
+      help_->setText(
+          QString("<span style='color:%1'>%2</span>")
+              .arg(theme_->error.name(), (QString::fromStdString(name) + ": " + why).toHtmlEscaped()));
     });
     QToolButton* button = row.menu;
     connect(button, &QToolButton::clicked, this, [this, name, button] { open_menu(name, button); });
     column->addWidget(row.line);
     rows_[name] = row;
   }
-  if (known.params.empty()) column->addWidget(faint_label(tr("%1 has no parameters.").arg(QString::fromStdString(known.name)), inside));
+  if (known.params.empty())
+    column->addWidget(
+        faint_label(tr("%1 has no parameters.").arg(QString::fromStdString(known.name)), inside));
   column->addStretch(1);
   scroll_->setWidget(inside);
   help_->clear();
@@ -243,7 +251,8 @@ void ParameterPanel::refresh_state() {
     QString line = QString::fromStdString(problem.message).toHtmlEscaped();
     if (const std::string& where = problem.param.empty() ? problem.port : problem.param; !where.empty())
       line = "<b>" + QString::fromStdString(where).toHtmlEscaped() + "</b>: " + line;
-    if (!problem.hint.empty()) line += " – <i>" + QString::fromStdString(problem.hint).toHtmlEscaped() + "</i>";
+    if (!problem.hint.empty())
+      line += " – <i>" + QString::fromStdString(problem.hint).toHtmlEscaped() + "</i>";
     line = QString("<div style='color:%1'>%2</div>").arg(color.name(), line);
     if (!text.contains(line)) text += line;
   };
@@ -290,7 +299,8 @@ void ParameterPanel::publish(const std::string& param, bool on) {
     }
     std::string name = param == "file" ? node : param;
     if (document.publish.params.count(name)) name = node + "_" + param;
-    return set_unit(document, {Unit::Kind::publish_param, name, {}}, Json(node + "." + param), "Publish " + param);
+    return set_unit(document, {Unit::Kind::publish_param, name, {}}, Json(node + "." + param),
+                    "Publish " + param);
   });
 }
 
@@ -300,20 +310,25 @@ void ParameterPanel::open_menu(const std::string& param, QToolButton* button) {
   if (!description) return;
   QMenu menu(this);
   const auto& node = session_.document().nodes.at(node_);
-  QAction* reset = menu.addAction(tr("Reset to default (%1)").arg(typed_text(description->fallback.value_or(Json())).left(30)), this, [this, param] {
-    session_.perform([&](const Document& d, const Registry&) { return reset_param(d, node_, param); });
-  });
+  QAction* reset = menu.addAction(
+      tr("Reset to default (%1)").arg(typed_text(description->fallback.value_or(Json())).left(30)), this,
+      [this, param] {
+        session_.perform([&](const Document& d, const Registry&) { return reset_param(d, node_, param); });
+      });
   reset->setEnabled(node.params.count(param) > 0);
   const std::string published = published_as(param);
-  menu.addAction(published.empty() ? tr("Publish") : tr("Unpublish (%1)").arg(QString::fromStdString(published)), this,
-                 [this, param, on = published.empty()] { publish(param, on); });
+  menu.addAction(
+      published.empty() ? tr("Publish") : tr("Unpublish (%1)").arg(QString::fromStdString(published)), this,
+      [this, param, on = published.empty()] { publish(param, on); });
   menu.addAction(tr("Help"), this, [this, description] {
     QString text = QString::fromStdString(description->help).toHtmlEscaped() + "<br>" +
                    QString::fromStdString(described(*description)).toHtmlEscaped();
     for (const ParamType::Choice& choice : description->choices)
-      text += "<br><b>" + QString::fromStdString(choice.key).toHtmlEscaped() + "</b>: " + QString::fromStdString(choice.help).toHtmlEscaped();
+      text += "<br><b>" + QString::fromStdString(choice.key).toHtmlEscaped() +
+              "</b>: " + QString::fromStdString(choice.help).toHtmlEscaped();
     help_->setText(text);
-    help_->setFixedHeight(std::max(fontMetrics().lineSpacing() * 3 + 4, help_->heightForWidth(help_->width()) + 4));
+    help_->setFixedHeight(
+        std::max(fontMetrics().lineSpacing() * 3 + 4, help_->heightForWidth(help_->width()) + 4));
   });
   menu.exec(button->mapToGlobal(QPoint(0, button->height())));
 }

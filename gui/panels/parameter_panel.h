@@ -1,5 +1,5 @@
-// The Parameters dock: the current node's parameters, made from its type's description. Changes apply while dragging,
-// one gesture is one undo step.
+// The Parameters dock: the current node's parameters, made from its type's description. Changes apply while
+// dragging, one gesture is one undo step.
 #pragma once
 #include <QWidget>
 #include <map>

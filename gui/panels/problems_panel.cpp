@@ -23,7 +23,12 @@ QIcon mark(const QColor& color) {
 }  // namespace
 
 ProblemsPanel::ProblemsPanel(Session& session, Evaluation& evaluation, QWidget* parent)
-    : QWidget(parent), session_(session), evaluation_(evaluation), theme_(&dark_theme()), list_(new QTreeWidget(this)), none_(new QLabel(this)) {
+    : QWidget(parent),
+      session_(session),
+      evaluation_(evaluation),
+      theme_(&dark_theme()),
+      list_(new QTreeWidget(this)),
+      none_(new QLabel(this)) {
   auto* layout = new QStackedLayout(this);
   layout->addWidget(list_);
   layout->addWidget(none_);
@@ -64,7 +69,10 @@ void ProblemsPanel::fill() {
   int errors = 0, warnings = 0;
   std::set<std::string> said;
   const auto add = [&](const Diagnostic& problem, const std::string& node) {
-    if (!said.insert(node + "\n" + problem.code + "\n" + problem.param + problem.port + "\n" + problem.message).second) return;
+    if (!said.insert(node + "\n" + problem.code + "\n" + problem.param + problem.port + "\n" +
+                     problem.message)
+             .second)
+      return;
     errors += problem.severity == Severity::error;
     warnings += problem.severity == Severity::warning;
     QString where = QString::fromStdString(node);

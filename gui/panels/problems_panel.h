@@ -1,5 +1,5 @@
-// The Problems dock: everything that is wrong or worth knowing, of the graph's structure and of its evaluation. A click
-// goes to the node; the hint says what to do.
+// The Problems dock: everything that is wrong or worth knowing, of the graph's structure and of its
+// evaluation. A click goes to the node; the hint says what to do.
 #pragma once
 #include <QTreeWidget>
 #include <QWidget>

@@ -1,4 +1,5 @@
-// Lists, lists of objects (edits, rules, keys) and tables of patterns: rows that are typed into, added, removed, moved.
+// Lists, lists of objects (edits, rules, keys) and tables of patterns: rows that are typed into, added,
+// removed, moved.
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -6,7 +7,6 @@
 #include <QTableWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
-
 #include <algorithm>
 #include <set>
 
@@ -19,8 +19,10 @@ constexpr int most_rows_seen = 6;
 
 class ChoiceDelegate : public QStyledItemDelegate {
  public:
-  ChoiceDelegate(const std::vector<ParamType>& columns, QObject* parent) : QStyledItemDelegate(parent), columns_(columns) {}
-  QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+  ChoiceDelegate(const std::vector<ParamType>& columns, QObject* parent)
+      : QStyledItemDelegate(parent), columns_(columns) {}
+  QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& option,
+                        const QModelIndex& index) const override {
     const ParamType& type = columns_[std::size_t(index.column())];
     QStringList choices;
     for (const ParamType::Choice& choice : type.choices) choices << QString::fromStdString(choice.key);
@@ -49,7 +51,8 @@ class ChoiceDelegate : public QStyledItemDelegate {
 
 class TableField : public ParamField {
  public:
-  TableField(const Param& param, QWidget* parent) : ParamField(parent), type_(param), table_(new QTableWidget(this)) {
+  TableField(const Param& param, QWidget* parent)
+      : ParamField(parent), type_(param), table_(new QTableWidget(this)) {
     using Kind = ParamType::Kind;
     const ParamType element = param.parts.empty() ? text("") : param.parts[0];
     by_name_ = param.kind == Kind::table;
@@ -72,7 +75,8 @@ class TableField : public ParamField {
     table_->verticalHeader()->hide();
     table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 10);
     table_->horizontalHeader()->setVisible(!titles.isEmpty());
-    table_->horizontalHeader()->setSectionResizeMode(columns_.size() > 4 ? QHeaderView::ResizeToContents : QHeaderView::Stretch);
+    table_->horizontalHeader()->setSectionResizeMode(columns_.size() > 4 ? QHeaderView::ResizeToContents
+                                                                         : QHeaderView::Stretch);
     table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setTabKeyNavigation(false);
@@ -80,7 +84,8 @@ class TableField : public ParamField {
     if (!titles.isEmpty()) table_->setHorizontalHeaderLabels(titles);
     for (std::size_t i = 0; i < columns_.size(); ++i)
       if (QTableWidgetItem* header = table_->horizontalHeaderItem(int(i)))
-        header->setToolTip(QString::fromStdString(columns_[i].help.empty() ? described(columns_[i]) : columns_[i].help));
+        header->setToolTip(
+            QString::fromStdString(columns_[i].help.empty() ? described(columns_[i]) : columns_[i].help));
     column->addWidget(table_);
     auto* row = new QHBoxLayout;
     row->setSpacing(4);
@@ -110,14 +115,17 @@ class TableField : public ParamField {
   void show_value(const Json& value) override {
     showing_ = true;
     value_ = value;
-    if (by_name_ ? !value.is_object() : !value.is_array()) value_ = by_name_ ? Json(Json::Object{}) : Json(Json::Array{});
+    if (by_name_ ? !value.is_object() : !value.is_array())
+      value_ = by_name_ ? Json(Json::Object{}) : Json(Json::Array{});
     if (!adding_) fill();
     showing_ = false;
   }
   bool is_being_edited() const override { return adding_; }
 
  private:
-  void set_cell(int row, int column, const QString& text) { table_->setItem(row, column, new QTableWidgetItem(text)); }
+  void set_cell(int row, int column, const QString& text) {
+    table_->setItem(row, column, new QTableWidgetItem(text));
+  }
 
   void fill() {
     table_->setRowCount(0);
@@ -147,8 +155,9 @@ class TableField : public ParamField {
 
   void fit() {
     const int rows = std::clamp(table_->rowCount(), 1, most_rows_seen);
-    table_->setFixedHeight(rows * table_->verticalHeader()->defaultSectionSize() +
-                           (table_->horizontalHeader()->isVisible() ? table_->horizontalHeader()->sizeHint().height() : 0) + 4);
+    table_->setFixedHeight(
+        rows * table_->verticalHeader()->defaultSectionSize() +
+        (table_->horizontalHeader()->isVisible() ? table_->horizontalHeader()->sizeHint().height() : 0) + 4);
   }
 
   QString cell(int row, int column) const {
@@ -203,7 +212,8 @@ class TableField : public ParamField {
     if (objects_) {
       Json::Object object;
       for (std::size_t i = 0; i < columns_.size(); ++i) {
-        if (cell(row, int(i)).isEmpty() && (columns_[i].fallback || columns_[i].kind != ParamType::Kind::text)) {
+        if (cell(row, int(i)).isEmpty() &&
+            (columns_[i].fallback || columns_[i].kind != ParamType::Kind::text)) {
           if (columns_[i].fallback) continue;
           why = tr("%1 is still missing.").arg(QString::fromStdString(columns_[i].name));
           break;

@@ -13,6 +13,11 @@
 #include "gui/viewer/looked_at.h"
 #include "gui/window/settings.h"
 
+// Resources of a library are only there when they are asked for.
+static void load_pictures() {
+  Q_INIT_RESOURCE(pictures);
+}
+
 namespace kinegraph {
 
 MainWindow::MainWindow(const Registry& registry, const Options& options)
@@ -26,6 +31,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
       state_text_(new QLabel),
       hover_text_(new QLabel),
       progress_(new QProgressBar) {
+  load_pictures();
   setObjectName("main_window");
   setDockNestingEnabled(true);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
@@ -41,6 +47,8 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   hover_text_->setObjectName("faint");
   hover_text_->setAccessibleName(tr("What is under the pointer"));
   state_text_->setAccessibleName(tr("State of the evaluation"));
+  state_text_->setContentsMargins(6, 0, 10, 0);
+  hover_text_->setContentsMargins(10, 0, 6, 0);
   progress_->setAccessibleName(tr("Progress"));
   progress_->setMaximumWidth(160);
   progress_->setTextVisible(false);
@@ -124,8 +132,8 @@ void MainWindow::evaluate() {
   const auto ask = [&](const Target& target) {
     if (asked.insert({target.node, target.port}).second) request.targets.push_back(target);
   };
-  // The current node, so that its state is known. What writes or checks runs only with the Run button: of those what
-  // is linked to them.
+  // The current node, so that its state is known. What writes or checks runs only with the Run button: of
+  // those what is linked to them.
   std::string looked_at = session_.current();
   if (looked_at.empty()) looked_at = node_to_look_at(session_.document(), registry_);
   if (auto found = session_.document().nodes.find(looked_at); found != session_.document().nodes.end()) {

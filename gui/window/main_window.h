@@ -1,5 +1,5 @@
-// The editor's window: the canvas in the middle, docks around it, menus, toolbar, status bar; opening and saving. It
-// tells Evaluation what is looked at, and holds no logic of graphs.
+// The editor's window: the canvas in the middle, docks around it, menus, toolbar, status bar; opening and
+// saving. It tells Evaluation what is looked at, and holds no logic of graphs.
 #pragma once
 #include <QFileSystemWatcher>
 #include <QMainWindow>
@@ -25,8 +25,8 @@ class MainWindow : public QMainWindow {
 
  public:
   struct Options {
-    bool remember = true;   // layout, theme and recent files, per user
-    bool ask = true;        // dialogs may open (not for a screenshot)
+    bool remember = true;      // layout, theme and recent files, per user
+    bool ask = true;           // dialogs may open (not for a screenshot)
     std::string cache_folder;  // "" = none
   };
   MainWindow(const Registry& registry, const Options& options);

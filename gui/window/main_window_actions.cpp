@@ -10,14 +10,15 @@
 
 namespace kinegraph {
 
-QAction* MainWindow::make(const QString& name, const QString& text, const QKeySequence& key, std::function<void()> act,
-                          QWidget* where) {
+QAction* MainWindow::make(const QString& name, const QString& text, const QKeySequence& key,
+                          std::function<void()> act, QWidget* where) {
   auto* made = new QAction(text, this);
   made->setObjectName("action_" + name);
   if (!key.isEmpty()) made->setShortcut(key);
   QString plain = text;
   plain.remove('&').remove("…");
-  made->setToolTip(key.isEmpty() ? plain : QString("%1 (%2)").arg(plain, key.toString(QKeySequence::NativeText)));
+  made->setToolTip(key.isEmpty() ? plain
+                                 : QString("%1 (%2)").arg(plain, key.toString(QKeySequence::NativeText)));
   connect(made, &QAction::triggered, this, [act = std::move(act)] { act(); });
   if (where) {
     // Keys of one letter belong to the canvas alone.
@@ -46,29 +47,49 @@ void MainWindow::make_actions() {
   make("redo", tr("&Redo"), QKeySequence("Ctrl+Shift+Z"), [this] { session_.redo(); });
   make("run", tr("&Run"), QKeySequence("F5"), [this] { run_effects(); });
   make("cancel", tr("&Cancel"), QKeySequence("Ctrl+."), [this] { evaluation_.cancel(); });
-  make("theme", tr("Light &theme"), QKeySequence("Ctrl+T"), [this] { set_theme(theme_->dark ? light_theme() : dark_theme()); });
-  make("canvas", tr("Go to the graph"), QKeySequence("Ctrl+1"), [this] { canvas_->setFocus(Qt::ShortcutFocusReason); });
+  make("theme", tr("Light &theme"), QKeySequence("Ctrl+T"),
+       [this] { set_theme(theme_->dark ? light_theme() : dark_theme()); });
+  make("canvas", tr("Go to the graph"), QKeySequence("Ctrl+1"),
+       [this] { canvas_->setFocus(Qt::ShortcutFocusReason); });
   make("keys", tr("&Keys and mouse"), QKeySequence::HelpContents, [this] { show_keys(); });
   make("about", tr("&About Kinegraph"), {}, [this] { about(); });
 
-  make("add", tr("&Add a node…"), QKeySequence("Shift+A"), [c] { c->add_by_search(); }, c);
-  make("delete", tr("&Delete, reconnecting"), QKeySequence::Delete, [c] { c->remove_selected(); }, c);
-  make("cut", tr("Cu&t"), QKeySequence::Cut, [c] { c->cut_selected(); }, c);
-  make("copy", tr("&Copy"), QKeySequence::Copy, [c] { c->copy_selected(); }, c);
-  make("paste", tr("&Paste"), QKeySequence::Paste, [c] { c->paste(); }, c);
-  make("duplicate", tr("Du&plicate"), QKeySequence("Ctrl+D"), [c] { c->duplicate(); }, c);
-  make("select_all", tr("Select &all"), QKeySequence::SelectAll, [c] { c->select_all(); }, c);
-  make("rename", tr("Re&name…"), QKeySequence("F2"), [c] { c->rename_selected(); }, c);
-  make("enable", tr("&Disable or enable"), QKeySequence("D"), [c] { c->toggle_enabled(); }, c);
-  make("color", tr("&Colour…"), QKeySequence("C"), [c] { c->choose_color(); }, c);
-  make("note", tr("&Note"), QKeySequence("N"), [c] { c->add_note(); }, c);
-  make("group", tr("&Group in a frame"), QKeySequence("G"), [c] { c->group_in_frame(); }, c);
-  make("link", tr("&Link to…"), QKeySequence("L"), [c] { c->link_by_search(); }, c);
-  make("take_out", tr("Take &out of its links"), QKeySequence("X"), [c] { c->take_out_selected(); }, c);
-  make("arrange", tr("A&rrange"), QKeySequence("Ctrl+L"), [c] { c->arrange(); }, c);
-  make("find", tr("&Find a node…"), QKeySequence::Find, [c] { c->find_node(); }, c);
-  make("frame", tr("Show &selection"), QKeySequence("F"), [c] { c->frame_selected(); }, c);
-  make("frame_all", tr("Show &all"), QKeySequence("A"), [c] { c->frame_all(); }, c);
+  make(
+      "add", tr("&Add a node…"), QKeySequence("Shift+A"), [c] { c->add_by_search(); }, c);
+  make(
+      "delete", tr("&Delete, reconnecting"), QKeySequence::Delete, [c] { c->remove_selected(); }, c);
+  make(
+      "cut", tr("Cu&t"), QKeySequence::Cut, [c] { c->cut_selected(); }, c);
+  make(
+      "copy", tr("&Copy"), QKeySequence::Copy, [c] { c->copy_selected(); }, c);
+  make(
+      "paste", tr("&Paste"), QKeySequence::Paste, [c] { c->paste(); }, c);
+  make(
+      "duplicate", tr("Du&plicate"), QKeySequence("Ctrl+D"), [c] { c->duplicate(); }, c);
+  make(
+      "select_all", tr("Select &all"), QKeySequence::SelectAll, [c] { c->select_all(); }, c);
+  make(
+      "rename", tr("Re&name…"), QKeySequence("F2"), [c] { c->rename_selected(); }, c);
+  make(
+      "enable", tr("&Disable or enable"), QKeySequence("D"), [c] { c->toggle_enabled(); }, c);
+  make(
+      "color", tr("&Colour…"), QKeySequence("C"), [c] { c->choose_color(); }, c);
+  make(
+      "note", tr("&Note"), QKeySequence("N"), [c] { c->add_note(); }, c);
+  make(
+      "group", tr("&Group in a frame"), QKeySequence("G"), [c] { c->group_in_frame(); }, c);
+  make(
+      "link", tr("&Link to…"), QKeySequence("L"), [c] { c->link_by_search(); }, c);
+  make(
+      "take_out", tr("Take &out of its links"), QKeySequence("X"), [c] { c->take_out_selected(); }, c);
+  make(
+      "arrange", tr("A&rrange"), QKeySequence("Ctrl+L"), [c] { c->arrange(); }, c);
+  make(
+      "find", tr("&Find a node…"), QKeySequence::Find, [c] { c->find_node(); }, c);
+  make(
+      "frame", tr("Show &selection"), QKeySequence("F"), [c] { c->frame_selected(); }, c);
+  make(
+      "frame_all", tr("Show &all"), QKeySequence("A"), [c] { c->frame_all(); }, c);
 }
 
 void MainWindow::make_menus() {
@@ -84,8 +105,10 @@ void MainWindow::make_menus() {
   QMenu* recent = file->addMenu(tr("Open &recent"));
   connect(recent, &QMenu::aboutToShow, this, [this, recent] { fill_recent(recent); });
   fill(file, {"", "save", "save_as", "", "quit"});
-  fill(menuBar()->addMenu(tr("&Edit")), {"undo", "redo", "", "cut", "copy", "paste", "duplicate", "delete", "", "select_all", "find"});
-  fill(menuBar()->addMenu(tr("&Graph")), {"add", "link", "take_out", "rename", "", "enable", "color", "note", "group", "", "arrange", "", "run", "cancel"});
+  fill(menuBar()->addMenu(tr("&Edit")),
+       {"undo", "redo", "", "cut", "copy", "paste", "duplicate", "delete", "", "select_all", "find"});
+  fill(menuBar()->addMenu(tr("&Graph")), {"add", "link", "take_out", "rename", "", "enable", "color", "note",
+                                          "group", "", "arrange", "", "run", "cancel"});
   QMenu* view = menuBar()->addMenu(tr("&View"));
   fill(view, {"frame", "frame_all", "canvas", "", "theme", ""});
   for (QDockWidget* dock : docks_) view->addAction(dock->toggleViewAction());
@@ -121,9 +144,9 @@ void MainWindow::make_menus() {
 }
 
 void MainWindow::update_icons() {
-  const std::pair<const char*, Sign> signs[] = {{"run", Sign::run},   {"cancel", Sign::stop}, {"undo", Sign::undo},
-                                                {"redo", Sign::redo}, {"add", Sign::add},     {"theme", Sign::theme},
-                                                {"arrange", Sign::tree}};
+  const std::pair<const char*, Sign> signs[] = {
+      {"run", Sign::run}, {"cancel", Sign::stop}, {"undo", Sign::undo},   {"redo", Sign::redo},
+      {"add", Sign::add}, {"theme", Sign::theme}, {"arrange", Sign::tree}};
   for (const auto& [name, sign] : signs) {
     actions_.at(name)->setIcon(icon(sign, *theme_));
     actions_.at(name)->setIconVisibleInMenu(false);
@@ -139,8 +162,10 @@ void MainWindow::update_actions() {
     actions_.at(name)->setIconText(QString(verb).remove('&'));
   };
   const History& history = session_.history();
-  step("undo", tr("&Undo"), session_.can_undo(), history.can_undo() ? &history.steps()[history.position() - 1] : nullptr);
-  step("redo", tr("&Redo"), session_.can_redo(), history.can_redo() ? &history.steps()[history.position()] : nullptr);
+  step("undo", tr("&Undo"), session_.can_undo(),
+       history.can_undo() ? &history.steps()[history.position() - 1] : nullptr);
+  step("redo", tr("&Redo"), session_.can_redo(),
+       history.can_redo() ? &history.steps()[history.position()] : nullptr);
   const bool chosen = !session_.selected().empty();
   for (const char* name : {"cut", "copy", "duplicate", "enable", "color", "group", "take_out"})
     actions_.at(name)->setEnabled(chosen);
@@ -170,15 +195,17 @@ void MainWindow::show_keys() {
       {"F5, Ctrl+.", "run Exports and Checks, cancel"},
   };
   QString text = "<table cellspacing=6>";
-  for (const auto& [keys, what] : rows) text += QString("<tr><td><b>%1</b></td><td>%2</td></tr>").arg(tr(keys), tr(what));
+  for (const auto& [keys, what] : rows)
+    text += QString("<tr><td><b>%1</b></td><td>%2</td></tr>").arg(tr(keys), tr(what));
   QMessageBox box(QMessageBox::NoIcon, tr("Keys and mouse"), text + "</table>", QMessageBox::Close, this);
   box.exec();
 }
 
 void MainWindow::about() {
-  QMessageBox::about(this, tr("About Kinegraph"),
-                     tr("<b>Kinegraph</b><br>A compositor for character motion. The same graphs run here and with "
-                        "<tt>kinegraph run</tt>."));
+  QMessageBox::about(
+      this, tr("About Kinegraph"),
+      tr("<b>Kinegraph</b><br>A compositor for character motion. The same graphs run here and with "
+         "<tt>kinegraph run</tt>."));
 }
 
 }  // namespace kinegraph

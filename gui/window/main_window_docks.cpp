@@ -4,6 +4,8 @@
 #include "gui/panels/files_panel.h"
 #include "gui/panels/parameter_panel.h"
 #include "gui/panels/problems_panel.h"
+#include "gui/timeline/timeline.h"
+#include "gui/viewer/viewer.h"
 #include "gui/window/main_window.h"
 
 namespace kinegraph {
@@ -13,7 +15,8 @@ QDockWidget* MainWindow::add_dock(QWidget* widget, const QString& title, Qt::Doc
   dock->setObjectName("dock_" + title.toLower());
   dock->setAccessibleName(title);
   dock->setWidget(widget);
-  dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetFloatable);
+  dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetClosable |
+                    QDockWidget::DockWidgetFloatable);
   addDockWidget(area, dock);
   docks_.push_back(dock);
   return dock;
@@ -37,16 +40,23 @@ QDockWidget* MainWindow::add_room(Room* room, const QString& title, Qt::DockWidg
 void MainWindow::make_docks() {
   setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
   setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
+  auto* viewer = new Viewer(session_, evaluation_, playback_);
+  auto* timeline = new Timeline(session_, evaluation_, playback_, *viewer);
   auto* parameters = new ParameterPanel(session_, evaluation_);
   auto* files = new FilesPanel(session_);
   auto* problems = new ProblemsPanel(session_, evaluation_);
+  QDockWidget* viewer_dock = add_room(viewer, tr("Viewer"), Qt::RightDockWidgetArea);
   QDockWidget* parameter_dock = add_room(parameters, tr("Parameters"), Qt::RightDockWidgetArea);
   QDockWidget* files_dock = add_room(files, tr("Files"), Qt::RightDockWidgetArea);
   tabifyDockWidget(parameter_dock, files_dock);
   parameter_dock->raise();
+  QDockWidget* timeline_dock = add_room(timeline, tr("Timeline"), Qt::BottomDockWidgetArea);
   QDockWidget* problems_dock = add_room(problems, tr("Problems"), Qt::BottomDockWidgetArea);
-  resizeDocks({parameter_dock, problems_dock}, {400, 400}, Qt::Horizontal);
-  resizeDocks({problems_dock}, {150}, Qt::Vertical);
+  tabifyDockWidget(timeline_dock, problems_dock);
+  timeline_dock->raise();
+  resizeDocks({viewer_dock, timeline_dock}, {460, 820}, Qt::Horizontal);
+  resizeDocks({viewer_dock, parameter_dock}, {370, 380}, Qt::Vertical);
+  resizeDocks({timeline_dock}, {190}, Qt::Vertical);
   connect(files, &FilesPanel::open_graph, this, [this](const QString& path) {
     if (may_discard()) open(path);
   });

@@ -67,15 +67,18 @@ bool MainWindow::open(const QString& path) {
   canvas_->frame_all();
   notice_->hide();
   if (session_.is_read_only())
-    notice_->say(tr("%1 was made by a newer Kinegraph. It can be looked at but not changed or saved; update Kinegraph to "
-                    "work on it.").arg(session_.title()));
+    notice_->say(tr("%1 was made by a newer Kinegraph. It can be looked at but not changed or saved; update "
+                    "Kinegraph to "
+                    "work on it.")
+                     .arg(session_.title()));
   offer_autosave();
   return true;
 }
 
 void MainWindow::offer_autosave() {
   if (!session_.autosave_found() || session_.is_read_only()) return;
-  notice_->say(tr("Work on %1 that was never saved was found, from a session that ended unexpectedly.").arg(session_.title()),
+  notice_->say(tr("Work on %1 that was never saved was found, from a session that ended unexpectedly.")
+                   .arg(session_.title()),
                {{tr("Take it up"),
                  [this] {
                    tell(session_.recover(), tr("The work that was found can't be read."));
@@ -94,7 +97,8 @@ void MainWindow::new_graph() {
 
 void MainWindow::choose_and_open() {
   if (!may_discard()) return;
-  const QString path = QFileDialog::getOpenFileName(this, tr("Open a graph"), session_.folder(), graph_filter());
+  const QString path =
+      QFileDialog::getOpenFileName(this, tr("Open a graph"), session_.folder(), graph_filter());
   if (!path.isEmpty()) open(path);
 }
 
@@ -113,9 +117,9 @@ bool MainWindow::save() {
 }
 
 bool MainWindow::save_as() {
-  QString path = QFileDialog::getSaveFileName(this, tr("Save the graph"),
-                                              session_.path().isEmpty() ? session_.folder() + "/untitled.kg.json" : session_.path(),
-                                              graph_filter());
+  QString path = QFileDialog::getSaveFileName(
+      this, tr("Save the graph"),
+      session_.path().isEmpty() ? session_.folder() + "/untitled.kg.json" : session_.path(), graph_filter());
   if (path.isEmpty()) return false;
   if (!path.endsWith(".kg.json")) path += path.endsWith(".kg") ? ".json" : ".kg.json";
   try {
@@ -137,9 +141,13 @@ bool MainWindow::may_discard() {
   box.setInformativeText(tr("Without saving they are lost."));
   box.setDefaultButton(QMessageBox::Save);
   switch (box.exec()) {
-    case QMessageBox::Save: return save();
-    case QMessageBox::Discard: session_.discard_autosave(); return true;
-    default: return false;
+    case QMessageBox::Save:
+      return save();
+    case QMessageBox::Discard:
+      session_.discard_autosave();
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -165,7 +173,8 @@ void MainWindow::fill_recent(QMenu* menu) {
 void MainWindow::run_effects() {
   if (has_error(session_.problems())) {
     show_dock("Problems");
-    notice_->say(tr("The graph has problems that keep it from running; the Problems dock lists them."), {}, 8);
+    notice_->say(tr("The graph has problems that keep it from running; the Problems dock lists them."), {},
+                 8);
     return;
   }
   EvaluationRequest request;
@@ -179,7 +188,9 @@ void MainWindow::run_effects() {
     any |= type && type->effect != Effect::none && node.enabled;
   }
   if (!any) {
-    notice_->say(tr("There is nothing to run: Run does the Export and Check nodes. Add an Export to write a file."), {}, 8);
+    notice_->say(
+        tr("There is nothing to run: Run does the Export and Check nodes. Add an Export to write a file."),
+        {}, 8);
     return;
   }
   evaluation_.request(std::move(request));
@@ -195,15 +206,19 @@ void MainWindow::ran_effects() {
     if (rule.passed)
       ++passed;
     else
-      text += tr("Check failed: %1 (measured %2). ").arg(QString::fromStdString(rule.rule)).arg(rule.value, 0, 'g', 4);
+      text += tr("Check failed: %1 (measured %2). ")
+                  .arg(QString::fromStdString(rule.rule))
+                  .arg(rule.value, 0, 'g', 4);
   }
   if (passed) text += tr("Checks passed: %1. ").arg(passed);
-  for (const auto& [name, node] : log.nodes) failed_nodes += node.state == NodeState::failed || node.state == NodeState::blocked;
+  for (const auto& [name, node] : log.nodes)
+    failed_nodes += node.state == NodeState::failed || node.state == NodeState::blocked;
   if (log.stopped) text = tr("The run was cancelled.");
   if (failed_nodes) text += tr("Nodes that failed or were blocked: %1.").arg(failed_nodes);
   notice_->say(text.isEmpty() ? tr("Nothing was written.") : text.trimmed(),
-               failed_nodes ? std::vector<NoticeBar::Answer>{{tr("Show problems"), [this] { show_dock("Problems"); }}}
-                            : std::vector<NoticeBar::Answer>{});
+               failed_nodes
+                   ? std::vector<NoticeBar::Answer>{{tr("Show problems"), [this] { show_dock("Problems"); }}}
+                   : std::vector<NoticeBar::Answer>{});
 }
 
 void MainWindow::watch_files() {
@@ -240,18 +255,22 @@ void MainWindow::file_changed_on_disk(const QString& path) {
   if (now.empty() || now == text_on_disk_ || now == session_.text()) return;
   const ReadResult theirs = read_document(now, path.toStdString(), registry_);
   if (has_error(theirs.problems)) {
-    notice_->say(tr("%1 changed on disk and can't be read there any more. What is open here is kept.").arg(session_.title()));
+    notice_->say(tr("%1 changed on disk and can't be read there any more. What is open here is kept.")
+                     .arg(session_.title()));
     return;
   }
   const ReadResult base = read_document(text_on_disk_, path.toStdString(), registry_);
   const Diff changed = diff(base.document, theirs.document);
   QStringList what;
   for (const Change& change : changed.changes) what << QString::fromStdString(to_text(change.unit));
-  const QString list = what.isEmpty() ? tr("only its layout") : QStringList(what.mid(0, 6)).join(", ") + (what.size() > 6 ? ", …" : "");
+  const QString list = what.isEmpty()
+                           ? tr("only its layout")
+                           : QStringList(what.mid(0, 6)).join(", ") + (what.size() > 6 ? ", …" : "");
   notice_->say(tr("%1 changed on disk: %2.").arg(session_.title(), list),
                {{tr("Merge it in"),
                  [this, now, base, theirs] {
-                   const Merge merged = merge(base.document, session_.document(), theirs.document, registry_, "here", "on disk");
+                   const Merge merged = merge(base.document, session_.document(), theirs.document, registry_,
+                                              "here", "on disk");
                    // One step that can be undone: from what is open to what was merged.
                    session_.perform([&](const Document& document, const Registry&) {
                      Edit edit{"Merge what changed on disk", {}};
@@ -266,8 +285,10 @@ void MainWindow::file_changed_on_disk(const QString& path) {
                    text_on_disk_ = now;
                    if (!merged.conflicts.empty()) {
                      QStringList conflicts;
-                     for (const MergeConflict& one : merged.conflicts) conflicts << QString::fromStdString(one.what);
-                     notice_->say(tr("Both sides changed the same; what is open here was kept for: %1").arg(conflicts.join("; ")));
+                     for (const MergeConflict& one : merged.conflicts)
+                       conflicts << QString::fromStdString(one.what);
+                     notice_->say(tr("Both sides changed the same; what is open here was kept for: %1")
+                                      .arg(conflicts.join("; ")));
                    }
                  }},
                 {tr("Keep what is open"), [this, now] { text_on_disk_ = now; }}});

@@ -6,7 +6,8 @@
 
 namespace kinegraph {
 
-NoticeBar::NoticeBar(QWidget* parent) : QFrame(parent), label_(new QLabel(this)), layout_(new QHBoxLayout(this)) {
+NoticeBar::NoticeBar(QWidget* parent)
+    : QFrame(parent), label_(new QLabel(this)), layout_(new QHBoxLayout(this)) {
   setObjectName("notice_bar");
   setAccessibleName(tr("Notice"));
   layout_->setContentsMargins(12, 6, 8, 6);

@@ -1,4 +1,5 @@
-// A line across the window that says what happened and what can be done about it, without standing in the way.
+// A line across the window that says what happened and what can be done about it, without standing in the
+// way.
 #pragma once
 #include <QFrame>
 #include <QTimer>

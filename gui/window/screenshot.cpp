@@ -7,7 +7,7 @@
 namespace kinegraph {
 namespace {
 
-constexpr int settle_ms = 700;     // quiet time after which nothing more is expected
+constexpr int settle_ms = 700;  // quiet time after which nothing more is expected
 constexpr int patience_ms = 60000;
 
 }  // namespace

@@ -7,7 +7,8 @@
 
 namespace kinegraph {
 
-// Shows the window, waits until what is looked at is evaluated, writes its picture. False: it can't be written.
+// Shows the window, waits until what is looked at is evaluated, writes its picture. False: it can't be
+// written.
 bool take_screenshot(MainWindow& window, const QString& file, QSize size);
 
 }  // namespace kinegraph
