@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <QAbstractButton>
+#include <QAbstractSlider>
+#include <QComboBox>
+#include <QTreeWidget>
+
+#include "gui/canvas/fuzzy.h"
+#include "gui/panels/arithmetic.h"
+#include "tests/gui/editor.h"
+
+namespace kinegraph::editor_test {
+namespace {
+
+TEST(EditorArithmetic, CalculatesWhatPeopleType) {
+  EXPECT_EQ(calculated("1/4"), 0.25);
+  EXPECT_EQ(calculated(" 2*(0.5+1) "), 3);
+  EXPECT_EQ(calculated("-2^2"), -4);
+  EXPECT_EQ(calculated("1e-3"), 0.001);
+  EXPECT_EQ(calculated("24 * 60"), 1440);
+  EXPECT_FALSE(calculated("1/0"));
+  EXPECT_FALSE(calculated("walk"));
+  EXPECT_FALSE(calculated("1 2"));
+  EXPECT_FALSE(calculated(""));
+}
+
+TEST(EditorSearch, FindsByInitialsAndKeywords) {
+  EXPECT_GT(fuzzy_score("st", "StyleTransfer", {}), 0);
+  EXPECT_GT(fuzzy_score("sttr", "StyleTransfer", {}), 0);
+  EXPECT_GT(fuzzy_score("save", "Export", {"save", "write"}), 0);
+  EXPECT_EQ(fuzzy_score("xyz", "StyleTransfer", {"mood"}), 0);
+  EXPECT_GT(fuzzy_score("trim", "Trim", {}), fuzzy_score("trim", "Resample", {"trim"}));
+}
+
+double number(Editor& editor, const std::string& node, const char* param) {
+  const auto& params = editor.document().nodes.at(node).params;
+  auto found = params.find(param);
+  return found == params.end() ? -1 : found->second.number();
+}
+
+TEST(EditorParameters, ANumberFieldTakesArithmetic) {
+  Editor editor;
+  const std::string gait = editor.add("gait");
+  auto* field = editor.window.findChild<QWidget*>("param_speed");
+  ASSERT_TRUE(field);
+  auto* line = field->findChild<QLineEdit*>();
+  line->setFocus();
+  line->selectAll();
+  editor.type("3/2");
+  editor.key(Qt::Key_Return);
+  EXPECT_EQ(number(editor, gait, "speed"), 1.5);
+}
+
+TEST(EditorParameters, DraggingASliderAppliesLiveAndIsOneStep) {
+  Editor editor;
+  const std::string gait = editor.add("gait");
+  auto* slider = editor.window.findChild<QWidget*>("param_bounce")->findChild<QSlider*>();
+  ASSERT_TRUE(slider);
+  const std::size_t steps = editor.session().history().position();
+  const QPoint start(slider->width() / 2, slider->height() / 2);
+  QTest::mousePress(slider, Qt::LeftButton, {}, start);
+  double last = -2;
+  int changes = 0;
+  for (int x = 4; x <= 40; x += 4) {
+    const QPoint at = start + QPoint(x, 0);
+    QMouseEvent event(QEvent::MouseMove, at, slider->mapToGlobal(at), Qt::NoButton, Qt::LeftButton,
+                      Qt::NoModifier);
+    QApplication::sendEvent(slider, &event);
+    if (number(editor, gait, "bounce") != last) ++changes;
+    last = number(editor, gait, "bounce");
+  }
+  QTest::mouseRelease(slider, Qt::LeftButton, {}, start + QPoint(40, 0));
+  EXPECT_GT(changes, 3);
+  EXPECT_EQ(editor.session().history().position(), steps + 1);
+  editor.session().undo();
+  EXPECT_FALSE(editor.document().nodes.at(gait).params.count("bounce"));
+}
+
+TEST(EditorEvaluation, TheCurrentNodeIsEvaluatedAndAnEditAsksAgain) {
+  Editor editor;
+  const std::string gait = editor.add("gait");
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return editor.window.evaluation().value(gait, "motion") != nullptr; }, 30000));
+  const ValuePtr first = editor.window.evaluation().value(gait, "motion");
+  editor.session().perform(
+      [&](const Document& d, const Registry& r) { return set_param(d, r, gait, "bounce", Json(1.5)); });
+  EXPECT_TRUE(
+      QTest::qWaitFor([&] { return editor.window.evaluation().value(gait, "motion") != first; }, 30000));
+}
+
+TEST(EditorProblems, AnOpenRequiredInputIsListedAndAClickGoesToItsNode) {
+  Editor editor;
+  const std::string metrics = editor.add("metrics");
+  editor.session().select({});
+  auto* list = editor.window.findChild<QTreeWidget*>("problem_list");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return list->topLevelItemCount() > 0; }, 5000));
+  editor.window.show_dock("Problems");
+  editor.settle();
+  QTest::mouseClick(list->viewport(), Qt::LeftButton, {},
+                    list->visualItemRect(list->topLevelItem(0)).center());
+  EXPECT_EQ(editor.session().current(), metrics);
+}
+
+TEST(EditorWindow, EveryControlHasAnAccessibleName) {
+  Editor editor;
+  for (const std::string& type : editor.registry.names()) {
+    editor.canvas().add(type, {0, 0});
+    editor.settle();
+    for (QWidget* widget : editor.window.findChildren<QWidget*>()) {
+      const bool control = qobject_cast<QAbstractButton*>(widget) || qobject_cast<QLineEdit*>(widget) ||
+                           qobject_cast<QAbstractSlider*>(widget) || qobject_cast<QComboBox*>(widget);
+      if (!control || widget->focusPolicy() == Qt::NoFocus || !widget->isVisible()) continue;
+      if (qobject_cast<QComboBox*>(widget->parentWidget()) || widget->objectName().startsWith("qt_"))
+        continue;
+      auto* button = qobject_cast<QAbstractButton*>(widget);
+      EXPECT_TRUE(!widget->accessibleName().isEmpty() || (button && !button->text().isEmpty()))
+          << type << ": " << widget->metaObject()->className() << " " << widget->objectName().toStdString()
+          << " in " << widget->parentWidget()->objectName().toStdString();
+    }
+  }
+}
+
+TEST(EditorDocument, WhatIsSavedOpensAgainTheSame) {
+  Editor editor;
+  editor.add("gait");
+  editor.add("metrics");
+  const QString path = editor.folder.filePath("two.kg.json");
+  editor.session().save_as(path);
+  const std::string text = editor.session().text();
+  Editor again;
+  EXPECT_TRUE(again.window.open(path));
+  EXPECT_EQ(again.session().text(), text);
+  EXPECT_FALSE(again.session().is_modified());
+}
+
+}  // namespace
+}  // namespace kinegraph::editor_test
