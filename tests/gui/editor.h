@@ -6,6 +6,8 @@
 #include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QTest>
+#include <gtest/gtest.h>
+
 #include <string>
 
 #include "gui/window/main_window.h"
@@ -18,6 +20,7 @@ struct Editor {
     window.resize(1280, 800);
     window.show();
     QTest::qWaitForWindowExposed(&window);
+    QApplication::setActiveWindow(&window);  // no window manager under Xvfb does it
     window.canvas().setFocus();
     settle();
   }
@@ -36,7 +39,11 @@ struct Editor {
     settle();
   }
   void type(const QString& text) {
-    QTest::keyClicks(QApplication::focusWidget(), text);
+    QWidget* popup = QApplication::activePopupWidget();
+    QWidget* widget = QApplication::focusWidget();
+    if (!widget && popup) widget = popup->focusWidget();
+    ASSERT_TRUE(widget) << "nothing has the keyboard's focus";
+    QTest::keyClicks(widget, text);
     settle();
   }
   // Tab, a few letters, Enter: the name of the node that came to be.
