@@ -1,6 +1,8 @@
 // The docks and where they stand when nobody has moved them.
 #include <QDockWidget>
 
+#include "gui/components/components_panel.h"
+#include "gui/curves/curves_panel.h"
 #include "gui/panels/files_panel.h"
 #include "gui/panels/parameter_panel.h"
 #include "gui/panels/problems_panel.h"
@@ -42,6 +44,8 @@ void MainWindow::make_docks() {
   setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   auto* viewer = new Viewer(session_, evaluation_, playback_);
   auto* timeline = new Timeline(session_, evaluation_, playback_, *viewer);
+  auto* curves = new CurvesPanel(session_, evaluation_, playback_, *viewer);
+  auto* components = new ComponentsPanel(session_, evaluation_, playback_);
   auto* parameters = new ParameterPanel(session_, evaluation_);
   auto* files = new FilesPanel(session_);
   auto* problems = new ProblemsPanel(session_, evaluation_);
@@ -52,7 +56,11 @@ void MainWindow::make_docks() {
   parameter_dock->raise();
   QDockWidget* timeline_dock = add_room(timeline, tr("Timeline"), Qt::BottomDockWidgetArea);
   QDockWidget* problems_dock = add_room(problems, tr("Problems"), Qt::BottomDockWidgetArea);
+  QDockWidget* curves_dock = add_room(curves, tr("Curves"), Qt::BottomDockWidgetArea);
+  QDockWidget* components_dock = add_room(components, tr("Components"), Qt::BottomDockWidgetArea);
   tabifyDockWidget(timeline_dock, problems_dock);
+  tabifyDockWidget(timeline_dock, curves_dock);
+  tabifyDockWidget(timeline_dock, components_dock);
   timeline_dock->raise();
   resizeDocks({viewer_dock, timeline_dock}, {460, 820}, Qt::Horizontal);
   resizeDocks({viewer_dock, parameter_dock}, {370, 380}, Qt::Vertical);
