@@ -19,6 +19,7 @@
 #include "headless/batch_items.h"
 #include "headless/commands.h"
 #include "headless/exit_code.h"
+#include "headless/html_page.h"
 #include "headless/interruption.h"
 #include "headless/outcome.h"
 #include "headless/sha256.h"
@@ -45,6 +46,9 @@ struct ItemRun {
   Json report;
   std::string junit;
 };
+
+// Of an item's report, what its record keeps.
+constexpr const char* parts_kept[] = {"files", "checks", "metrics"};
 
 const char* state_of(const ItemRun& run) {
   if (!run.begun) return "not begun";
@@ -193,7 +197,7 @@ class Batch {
     run.report = report_of(outcome, program_, session.opened(), out_);
     run.junit = junit_of(outcome, program_, session.opened());
     if (outcome.exit == exit_code::done || outcome.exit == exit_code::checks_failed)
-      write_record(record, *run.item, outcome, keys_of(outcome.log, targets));
+      write_record(record, run, keys_of(outcome.log, targets));
   }
 
   std::string taken_by_another(const BatchItem& item, const Session& session) {
@@ -213,19 +217,14 @@ class Batch {
     return keys;
   }
 
-  void write_record(const std::string& path, const BatchItem& item, const Outcome& outcome,
-                    Json::Object keys) {
-    Json::Array files;
-    for (const auto& file : outcome.log.files)
-      files.push_back(Json::Object{{"node", file.node},
-                                   {"path", fs::path(file.path).lexically_relative(out_).generic_string()},
-                                   {"bytes", static_cast<std::size_t>(file.bytes)},
-                                   {"sha256", sha256(file.content)}});
-    const Json record = Json::Object{{"format", "kinegraph-item"}, {"schema", 1},
-                                     {"item", item.name},          {"exit", outcome.exit},
-                                     {"keys", std::move(keys)},    {"files", std::move(files)}};
+  // What a later --resume needs: to see that the item is done, and to tell of it as if it had run.
+  void write_record(const std::string& path, const ItemRun& run, Json::Object keys) {
+    Json::Object record{{"format", "kinegraph-item"}, {"schema", 1},
+                        {"item", run.item->name},     {"exit", run.exit},
+                        {"keys", std::move(keys)},    {"junit", run.junit}};
+    for (const char* part : parts_kept) record[part] = *run.report.find(part);
     fs::create_directories(fs::path(path).parent_path());
-    write_file_atomically(path, indented(record));
+    write_file_atomically(path, indented(Json(std::move(record))));
   }
 
   // Whether the record's keys are those that the graph has now, and its files are there as they were written.
@@ -258,7 +257,11 @@ class Batch {
       if (!there.contains(fs::weakly_canonical(planned, failed).string())) return false;
     }
     run.exit = static_cast<int>(exit->number());
-    run.report = Json::Object{{"files", *files}};
+    Json::Object told;
+    for (const char* part : parts_kept)
+      if (const Json* kept = record.find(part)) told[part] = *kept;
+    run.report = std::move(told);
+    if (const Json* junit = record.find("junit"); junit && junit->is_string()) run.junit = junit->string();
     return true;
   }
 
@@ -332,14 +335,16 @@ class Batch {
         suite.insert(name + 6, run.item->name + ": ");
       suites += suite;
     }
-    write(arguments_.run.report, indented(Json(Json::Object{{"format", "kinegraph-batch-report"},
-                                                            {"schema", 1},
-                                                            {"graph", arguments_.run.graph},
-                                                            {"version", program_.version},
-                                                            {"exit", exit},
-                                                            {"started", stamp(started)},
-                                                            {"ended", stamp(now())},
-                                                            {"items", std::move(items)}})));
+    const Json report = Json::Object{{"format", "kinegraph-batch-report"},
+                                     {"schema", 1},
+                                     {"graph", arguments_.run.graph},
+                                     {"version", program_.version},
+                                     {"exit", exit},
+                                     {"started", stamp(started)},
+                                     {"ended", stamp(now())},
+                                     {"items", std::move(items)}};
+    if (!arguments_.run.html.empty()) write(arguments_.run.html, html_page(Json::Object{{"report", report}}));
+    write(arguments_.run.report, indented(report));
     write(arguments_.run.junit,
           "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n" + suites + "</testsuites>\n");
     return code;

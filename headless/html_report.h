@@ -14,8 +14,8 @@ struct BeforeAfter {
   std::string name;      // of the Export, or "node.port" of a published output
   Target before, after;  // before.node "" = nothing to compare with
 };
-// By the main input (the first of a motion) from each Export, or published output, back to where it came
-// from.
+// By the main input (the first of a motion or points) from each Export, or named output, back to where it
+// came from; of a Check what it judges, with the baseline where nothing lies before.
 std::vector<BeforeAfter> motions_to_show(const Session& session, const std::vector<Target>& targets);
 
 std::string html_of(const Outcome& outcome, const Program& program, Session& session,

@@ -53,13 +53,10 @@ void add_run_options(CLI::App& app, RunArguments& arguments) {
   add_sandbox(app, arguments);
   app.add_option("--report", arguments.report, "Write what happened as JSON")->type_name("FILE.json");
   app.add_option("--junit", arguments.junit, "Write Exports and rules as JUnit XML")->type_name("FILE.xml");
-  app.add_option("--progress", arguments.progress, "auto, bar, json or none, on standard error")
-      ->type_name("FORM");
-}
-
-void add_html(CLI::App& app, RunArguments& arguments) {
   app.add_option("--html", arguments.html, "Write a page with the graph, times, metrics and a player")
       ->type_name("FILE.html");
+  app.add_option("--progress", arguments.progress, "auto, bar, json or none, on standard error")
+      ->type_name("FORM");
 }
 
 void add_graph(CLI::App& app, std::string& graph) {
@@ -81,7 +78,6 @@ int chosen(const Program& program, int argc, char** argv) {
     auto& command = *app.add_subcommand("run", "Run a graph's Exports and Checks, or its published outputs");
     add_graph(command, run.graph);
     add_run_options(command, run);
-    add_html(command, run);
     command.add_option("--target", run.targets, "Run only what this needs")
         ->type_name("NODE[.PORT]")
         ->allow_extra_args(false);
