@@ -1,7 +1,7 @@
 #include "graph/evaluate/file_store.h"
 #include "headless/commands.h"
 #include "headless/exit_code.h"
-#include "nodes/files/file_facts.h"
+#include "nodes/judge/file_facts.h"
 
 namespace kinegraph {
 
@@ -10,12 +10,12 @@ int info_command(const Program& program, const InfoArguments& arguments) {
   Alone work;
   const std::string path = absolute_path(arguments.file);
   try {
-    const MotionFile file = read_motion_file(path, {}, files, work);
-    if (arguments.json) {
-      program.terminal.result(indented(facts_json(file, arguments.file, work.reported)));
-    } else {
-      program.terminal.result(facts_text(file, arguments.file, work.reported));
-    }
+    ReadOptions as_it_is;
+    as_it_is.max_gap = 0;
+    const MotionFile file = read_motion_file(path, as_it_is, files, work);
+    const FileFacts facts = facts_of(file, path, files, work.reported, work);
+    program.terminal.result(arguments.json ? indented(facts_json(file, facts, arguments.file))
+                                           : facts_text(file, facts, arguments.file));
   } catch (const Failure& failure) {
     Diagnostic problem = failure.diagnostic();
     if (problem.file.empty() || problem.file == path) problem.file = arguments.file;

@@ -8,6 +8,7 @@
 
 #include "nodes/files/decimal.h"
 #include "nodes/files/text_place.h"
+#include "nodes/files/up_axis.h"
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/fill_gaps.h"
 
@@ -73,7 +74,7 @@ Points settled(Points in_file, const LengthUnit& unit, UpAxis up, const ReadOpti
   for (int label = 0; label < static_cast<int>(points.labels.size()); ++label) {
     const auto track = points.track(label);
     for (std::size_t t = 0; t < points.frames; ++t)
-      if (!points.is_missing(label, t)) track.set(t, used.metres * markers_y_up(track[t], points.up));
+      if (!points.is_missing(label, t)) track.set(t, used.metres * y_up(track[t], points.up));
   }
   if (const std::size_t filled = fill_gaps(points, static_cast<std::size_t>(options.max_gap)))
     work.report(info("gaps-filled", fmt::format("{} missing samples were filled by splines", filled)));
@@ -109,8 +110,7 @@ LengthUnit unit_to_write(const Points& points, const WriteOptions& options, bool
 }
 
 Vec3 in_file(Vec3 metres, const LengthUnit& unit, UpAxis up) {
-  const Vec3 turned = up == UpAxis::y ? metres : Vec3{metres.z, metres.x, metres.y};
-  return turned / unit.metres;
+  return with_up(metres, up) / unit.metres;
 }
 
 double rate_of_times(std::span<const double> times, int decimals) {

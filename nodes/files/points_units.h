@@ -24,12 +24,6 @@ LengthUnit unit_of_file(std::string_view name, const ReadOptions& options);
 
 // The unit to write in: the option's, else the source's where `named` can tell it, else metres.
 LengthUnit unit_to_write(const Points& points, const WriteOptions& options, bool must_have_name);
-// Between marker files whose Z points up and the world here: x = Y, y = Z, z = X. Marker labs (Vicon) turn
-// their captures so when they solve them to skeletons, and so do CMU's: markers lie where their skeleton
-// does. Files of motions turn otherwise (up_axis.h), as Blender does.
-inline Vec3 markers_y_up(Vec3 v, UpAxis from) {
-  return from == UpAxis::y ? v : Vec3{v.y, v.z, v.x};
-}
 // Coordinates of the file, of metres and Y up.
 Vec3 in_file(Vec3 metres, const LengthUnit& unit, UpAxis up);
 

@@ -51,7 +51,8 @@ class FileCommands : public testing::Test {
 TEST_F(FileCommands, InfoTellsWhatAFileHolds) {
   const Ran text = run("info clip.bvh", "2>/dev/null");
   EXPECT_EQ(text.exit, 0);
-  for (const char* part : {"2 at 25 a second", "2 joints, 1 End Sites", "\n  Leg ", "unit-found"})
+  for (const char* part : {"2 at 25 a second", "2 joints, 1 End Sites", "\n  Leg ", "unit-found",
+                           "breaks    no flips", "feet      too few frames"})
     EXPECT_NE(text.output.find(part), std::string::npos) << text.output;
   const Ran json = run("info clip.bvh --json", "2>/dev/null");
   EXPECT_EQ(json.exit, 0);

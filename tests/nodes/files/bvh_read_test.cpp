@@ -228,7 +228,7 @@ TEST(BvhRead, TurnsAFileWhoseZPointsUp) {
   const Motion turned = read(small_bvh(two_frames()), options);
   const Pose a = pose_at(as_written, 1), b = pose_at(turned, 1);
   for (std::size_t j = 0; j < 2; ++j)
-    expect_near(b.positions[j], {a.positions[j].x, a.positions[j].z, -a.positions[j].y});
+    expect_near(b.positions[j], {a.positions[j].y, a.positions[j].z, a.positions[j].x});
 }
 
 TEST(BvhRead, KeepsQuaternionsContinuousOverWraps) {

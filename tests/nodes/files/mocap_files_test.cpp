@@ -1,6 +1,6 @@
-// Every BVH and ASF/AMC of the shared motion capture: those that must load, with joints, frames and rate as
-// its README states them (an .amc has a joint for each of its .asf's 30 bones and the root), and those that
-// must be refused.
+// Every file of the shared motion capture: those that must load, with joints or markers, frames and rate as
+// its README states them (an .amc has a joint for each of its .asf's 30 bones and the root; a TRC whose times
+// differ from its DataRate goes by its times), and those that must be refused. A file in neither list fails.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -17,7 +17,7 @@ namespace {
 
 struct Loads {
   const char* file;
-  int joints;
+  int joints;  // or markers
   std::size_t frames;
   double fps;
   const char* unit;
@@ -46,13 +46,20 @@ TEST_P(MocapFile, LoadsAsItsReadmeSays) {
   KINEGRAPH_NEEDS_MOCAP();
   Alone work;
   const MotionFile file = load(mocap(GetParam().file), work);
-  const Motion* motion = file.motion();
-  ASSERT_NE(motion, nullptr);
-  EXPECT_EQ(motion->joints(), GetParam().joints);
-  EXPECT_EQ(motion->frames(), GetParam().frames);
-  EXPECT_EQ(motion->fps(), GetParam().fps);
-  EXPECT_EQ(motion->source().unit_name, GetParam().unit);
-  EXPECT_FALSE(motion->non_finite());
+  if (const Motion* motion = file.motion()) {
+    EXPECT_EQ(motion->joints(), GetParam().joints);
+    EXPECT_EQ(motion->frames(), GetParam().frames);
+    EXPECT_NEAR(motion->fps(), GetParam().fps, 1e-9);
+    EXPECT_EQ(motion->source().unit_name, GetParam().unit);
+  } else {
+    const Points* points = file.points();
+    ASSERT_NE(points, nullptr);
+    EXPECT_EQ(int(points->labels.size()), GetParam().joints);
+    EXPECT_EQ(points->frames, GetParam().frames);
+    EXPECT_NEAR(points->fps, GetParam().fps, 1e-9);
+    EXPECT_EQ(points->unit_name, GetParam().unit);
+  }
+  for (const FileContent& content : file.contents) EXPECT_FALSE(content.value->non_finite()) << content.port;
   std::string codes;
   for (const Diagnostic& one : work.reported)
     if (one.severity == Severity::warning) codes += (codes.empty() ? "" : " ") + one.code;
@@ -85,6 +92,9 @@ struct Refused {
 const Refused refused[] = {
     {"odd/derived/too_few_values.bvh", "too-few-values", 191, 384},
     {"odd/derived/comma_decimal.bvh", "decimal-comma", 187, 13},
+    {"odd/Truncated.trc", "truncated", 3, 1},
+    {"cmu/cmu-index.csv", "bad-header", 1, 1},
+    {"README.md", "unknown-format", 0, 0},
 };
 
 TEST(MocapFiles, ThatAreDamagedAreRefusedWithLineColumnAndReason) {
@@ -110,8 +120,7 @@ TEST(MocapFiles, AreAllInOneOfTheTwoLists) {
   for (const Refused& one : refused) listed.insert(one.file);
   const auto root = std::filesystem::path(mocap());
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
-    const auto ending = entry.path().extension();
-    if (ending != ".bvh" && ending != ".amc") continue;
+    if (!entry.is_regular_file()) continue;
     EXPECT_TRUE(listed.count(entry.path().lexically_relative(root).string())) << entry.path();
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "nodes/files/bvh_write.h"
 #include "nodes/files/c3d.h"
 #include "nodes/files/motion_file.h"
 #include "nodes/files/points_table.h"
@@ -249,6 +250,40 @@ TEST(C3d, LiesWhereTheSkeletonOfItsTrialDoes) {
   EXPECT_LT(waist, 0.15);
 }
 
+// The trial as a lab would give it away, Z up: its skeleton as a BVH and its joints as markers.
+TEST(PointsFiles, WhoseZPointsUpLieWhereTheSkeletonOfTheSameLabDoes) {
+  KINEGRAPH_NEEDS_MOCAP();
+  PlainFiles files;
+  Alone work;
+  const MotionFile trial = read_motion_file(mocap("cmu/asfamc/02_01.amc"), {}, files, work);
+  Motion motion = *trial.motion();
+  auto facts = std::make_shared<SourceFacts>();
+  facts->up = UpAxis::z;
+  motion.set_source(facts);
+  const ValuePtr value = points_of_motion(motion);
+  Points joints = dynamic_cast<const Points&>(*value);
+  joints.up = UpAxis::z;
+  files.made["/lab.bvh"] = write_bvh(motion, {.precision = 9}, work);
+  files.made["/lab.c3d"] = write_c3d(joints, {}, work);
+  files.made["/lab.trc"] = write_trc(joints, "lab.trc", {}, work);
+  ReadOptions z_up = unfilled();
+  z_up.up = "z";
+  z_up.unit = Json("m");
+  const MotionFile skeleton = read_motion_file("/lab.bvh", z_up, files, work);
+  const WorldMotion world = world_motion(*skeleton.motion());
+  for (const char* name : {"/lab.c3d", "/lab.trc"}) {
+    const MotionFile file = read_motion_file(name, z_up, files, work);
+    const Points& markers = *file.points();
+    ASSERT_EQ(markers.labels.size(), joints.labels.size());
+    auto joint_of = [&](int label) { return skeleton.motion()->skeleton().find(markers.labels[label]); };
+    double farthest = 0;
+    for (int label = 0; label < int(markers.labels.size()); ++label)
+      for (std::size_t t = 0; t < markers.frames; ++t)
+        farthest = std::max(farthest, norm(markers.track(label)[t] - world.position(joint_of(label))[t]));
+    EXPECT_LT(farthest, 2e-6) << name;
+  }
+}
+
 TEST(C3d, AndTrcOfOneTrialAreEqualWithinTheTextsDigits) {
   KINEGRAPH_NEEDS_MOCAP();
   ReadOptions z_up = unfilled();
@@ -272,38 +307,6 @@ TEST(C3d, AndTrcOfOneTrialAreEqualWithinTheTextsDigits) {
     }
   EXPECT_GT(compared, 2000u);
   EXPECT_LT(farthest, 5.1e-5);  // the text has five digits
-}
-
-TEST(PointsFiles, OfTheCollectionLoadAsItsReadmeSays) {
-  KINEGRAPH_NEEDS_MOCAP();
-  const struct {
-    const char* file;
-    std::size_t labels, frames;
-    double fps;
-    const char* warnings;
-  } all[] = {{"points/face_eyebrows.trc", 41, 902, 60, ""},
-             {"points/face_eyebrows.csv", 41, 902, 60, "unit-unknown"},
-             {"points/face_jaw.trc", 41, 1590, 60, ""},
-             {"points/gait10dof18musc_walk_CRLF_line_ending.trc", 41, 10, 60, ""},
-             {"points/dataWithBlanksForMissingMarkers.trc", 40, 464, 250, "long-gap"},
-             {"points/cmu_02_01.c3d", 41, 343, 120, ""},
-             {"odd/Dance_badstart.c3d", 40, 499, 65.05333, "data-start frame-count"}};
-  for (const auto& one : all) {
-    SCOPED_TRACE(one.file);
-    PlainFiles files;
-    Alone work;
-    const MotionFile file = read_motion_file(mocap(one.file), {}, files, work);
-    ASSERT_NE(file.points(), nullptr);
-    EXPECT_EQ(file.points()->labels.size(), one.labels);
-    EXPECT_EQ(file.points()->frames, one.frames);
-    EXPECT_NEAR(file.points()->fps, one.fps, 1e-4);
-    EXPECT_EQ(codes(work), one.warnings);
-    EXPECT_FALSE(file.points()->non_finite());
-  }
-  PlainFiles files;
-  Alone work;
-  EXPECT_EQ(refusal([&] { read_motion_file(mocap("odd/Truncated.trc"), {}, files, work); }).code,
-            "truncated");
 }
 
 TEST(PointsFiles, OfTheFaceAreTheSameAsTableAndAsTrc) {

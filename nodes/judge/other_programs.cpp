@@ -1,0 +1,126 @@
+#include "nodes/judge/other_programs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/motion/elementary.h"
+#include "nodes/motion/kinematics.h"
+
+namespace kinegraph {
+
+namespace {
+
+bool has_positions(const BvhJoint& joint) {
+  return std::any_of(joint.channels.begin(), joint.channels.end(), [](const auto& c) { return c[1] == 'p'; });
+}
+
+// Joints one of whose angles, as read, goes half a turn or more from one frame to the next while the joint
+// turns by less than a quarter; the first such frame of the first of them.
+struct Wraps {
+  std::vector<std::string> joints;
+  std::size_t frame = 0;
+};
+Wraps wraps_of(const Motion& motion) {
+  Wraps wraps;
+  const SourceFacts& source = motion.source();
+  if (!source.read || source.read_frames != motion.frames()) return wraps;
+  std::size_t channels = 0;
+  for (const BvhJoint& joint : source.bvh) channels += joint.channels.size();
+  if (channels == 0) return wraps;
+  const std::size_t length = source.read->size() / channels;
+  std::size_t channel = 0;
+  for (std::size_t j = 0; j < source.bvh.size(); ++j) {
+    std::size_t first = motion.frames();
+    const auto q = motion.rotation(static_cast<int>(j));
+    for (const std::string& name : source.bvh[j].channels) {
+      const double* angle = source.read->data() + channel++ * length + source.first_read;
+      for (std::size_t t = 1; name[1] == 'r' && t < first; ++t)
+        if (std::fabs(angle[t] - angle[t - 1]) >= 180 && turn(q[t - 1], q[t]) < 90 / degrees_per_radian)
+          first = t;
+    }
+    if (first == motion.frames()) continue;
+    if (wraps.joints.empty()) wraps.frame = first;
+    wraps.joints.push_back(motion.skeleton().joints[j].name);
+  }
+  return wraps;
+}
+
+// Whether the legs stand along Z rather than Y, in most of nine frames over the clip.
+bool legs_along_z(const Motion& motion) {
+  constexpr std::size_t looked_at = 9;
+  if (motion.frames() == 0 || motion.source().up == UpAxis::z) return false;
+  const std::vector<Leg> legs = find_legs(motion.skeleton());
+  std::size_t along = 0;
+  for (std::size_t k = 0; k < looked_at; ++k) {
+    const Pose pose = pose_at(motion, (motion.frames() - 1) * k / (looked_at - 1));
+    Vec3 sum;
+    for (const Leg& leg : legs)
+      if (leg.hip >= 0 && leg.ankle >= 0) sum += pose.positions[leg.hip] - pose.positions[leg.ankle];
+    along += std::fabs(sum.z) > 0.8 * norm(sum) && std::fabs(sum.y) < 0.4 * norm(sum);
+  }
+  return 2 * along > looked_at;
+}
+
+}  // namespace
+
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t shown = 4;
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < shown; ++i) text += (i ? ", " : "") + names[i];
+  if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
+Diagnostics for_other_programs(const Motion& motion) {
+  Diagnostics found;
+  std::vector<std::string> adds, blanks, paths, bare, cut;
+  const bool is_bvh = !motion.source().bvh.empty();
+  const int joints = motion.joints();
+  std::vector<bool> ends(static_cast<std::size_t>(joints));
+  for (const EndSite& end : motion.skeleton().ends) ends[end.joint] = true;
+  for (const Joint& joint : motion.skeleton().joints)
+    if (joint.parent >= 0) ends[joint.parent] = true;
+  for (int j = 0; j < joints; ++j) {
+    const std::string& name = motion.skeleton().joints[j].name;
+    if (name.find_first_of(" \t") != std::string::npos) blanks.push_back(name);
+    if (name.find_first_of(" \t.:/[]") != std::string::npos) paths.push_back(name);
+    if (name.size() > 63) cut.push_back(name);
+    if (!is_bvh) continue;
+    const BvhJoint& channels = motion.source().bvh[j];
+    if (has_positions(channels) && channels.offset != Vec3{}) adds.push_back(name);
+    if (!ends[j]) bare.push_back(name);
+  }
+  if (!adds.empty())
+    found.push_back(warning("three-adds-offset",
+                            "three.js adds OFFSET and position channels where Blender, MotionBuilder "
+                            "and Kinegraph take the channels alone: " +
+                                some_of(adds)));
+  if (!blanks.empty() && is_bvh)
+    found.push_back(warning("assimp-names", "Assimp doesn't read BVH names with blanks: " + some_of(blanks)));
+  if (!paths.empty() && is_bvh)
+    found.push_back(warning("three-names",
+                            "three.js takes blanks and . : / [ ] in names for paths, so that these joints "
+                            "stand still there: " +
+                                some_of(paths)));
+  if (!cut.empty())
+    found.push_back(warning("long-names", "Blender cuts names off after 63 bytes: " + some_of(cut)));
+  if (legs_along_z(motion))
+    found.push_back(warning("up-axis", "the legs point along Z, and the file is read as Y up")
+                        .hinting("set up to z where the figure lies down")
+                        .at_param("up"));
+  if (const Wraps wraps = wraps_of(motion); !wraps.joints.empty())
+    found.push_back(info("euler-wraps",
+                         "angles jump by half a turn or more where the joint hardly turns; programs that "
+                         "interpolate or filter them one by one see a spin there: " +
+                             some_of(wraps.joints))
+                        .at_frame(static_cast<std::int64_t>(wraps.frame)));
+  if (!bare.empty())
+    found.push_back(info(
+        "no-end-site",
+        "joints at the end of a chain have no End Site, so programs guess their bone: " + some_of(bare)));
+  return found;
+}
+
+}  // namespace kinegraph

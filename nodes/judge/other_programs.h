@@ -1,0 +1,18 @@
+// What other programs will stumble over in a motion file, though it is read here.
+#pragma once
+#include "graph/diagnostic.h"
+#include "nodes/motion/motion.h"
+
+namespace kinegraph {
+
+// three-adds-offset: three.js adds OFFSET and position channels. three-names: it keeps the first word of a
+// name and takes . : / [ ] in one for a path. assimp-names: it refuses BVH names with blanks. long-names:
+// Blender cuts names off after 63 bytes. euler-wraps: channels that jump by 180° or more where the rotation
+// hardly turns, which programs that interpolate channels take for a turn. no-end-site: chains that end in a
+// joint. up-axis: the legs point along Z.
+Diagnostics for_other_programs(const Motion& motion);
+
+// The first few names, and how many more there are.
+std::string some_of(const std::vector<std::string>& names);
+
+}  // namespace kinegraph

@@ -1,0 +1,103 @@
+// What a person is told of a file before using it, on files of every kind.
+#include "nodes/judge/file_facts.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/mocap.h"
+#include "tests/nodes/files/plain_files.h"
+
+namespace kinegraph {
+namespace {
+
+using testing::HasSubstr;
+
+struct Told {
+  FileFacts facts;
+  std::string text;
+  Json json;
+};
+Told told_of(PlainFiles& files, const std::string& path) {
+  Alone work;
+  ReadOptions options;
+  options.max_gap = 0;
+  const MotionFile file = read_motion_file(path, options, files, work);
+  Told told;
+  told.facts = facts_of(file, path, files, work.reported, work);
+  told.text = facts_text(file, told.facts, "it");
+  told.json = facts_json(file, told.facts, "it");
+  return told;
+}
+Told told_of(const std::string& path) {
+  PlainFiles files;
+  return told_of(files, mocap(path));
+}
+std::string codes(const FileFacts& facts) {
+  std::string all;
+  for (const Diagnostic& one : facts.told) all += one.code + ' ';
+  return all;
+}
+
+TEST(FileFacts, OfAWalkAreWhatAPersonAsks) {
+  KINEGRAPH_NEEDS_MOCAP();
+  const Told walk = told_of("cmu/bvh/08_01.bvh");
+  EXPECT_TRUE(walk.facts.motion->rest_frame);
+  ASSERT_TRUE(walk.facts.motion->contacts);
+  EXPECT_GE(runs_of(walk.facts.motion->contacts->points[0].planted).size(), 2u);
+  for (const char* line :
+       {"it: bvh, motion", "frames    278 at 120 a second, 2.32 s", "unit      cmu (0.0564444 m), found by",
+        "up        Y", "height    1.38 m in the rest pose", "legs 0.799 m", "skeleton  31 joints, 7 End Sites",
+        "channels  3 Zrotation Yrotation Xrotation: 30 joints", "feet      LeftFoot heel", "flip of RThumb",
+        "\n    LeftUpLeg  "})
+    EXPECT_THAT(walk.text, HasSubstr(line));
+  for (const char* key :
+       {"frames", "fps", "seconds", "unit", "unit_name", "unit_from", "up", "rest_height", "leg_length",
+        "rest_frame", "contacts", "joints", "ends", "breaks", "finite", "diagnostics"})
+    EXPECT_TRUE(walk.json.find(key)) << key;
+}
+
+TEST(FileFacts, OfMarkersCountWhatIsMissingInTheFile) {
+  KINEGRAPH_NEEDS_MOCAP();
+  const Told trial = told_of("points/Eb015pi.c3d");
+  EXPECT_EQ(trial.facts.up, "Z");
+  EXPECT_EQ(trial.facts.points->missing, 226u);
+  EXPECT_EQ(trial.facts.points->longest, 47u);
+  EXPECT_THAT(trial.text, HasSubstr("unit      mm (0.001 m), as POINT:UNITS says"));
+  EXPECT_THAT(trial.text, HasSubstr("longest: PV2, frames 403 to 449"));
+  EXPECT_EQ(codes(trial.facts).find("long-gap"), std::string::npos);
+  EXPECT_NEAR(trial.facts.points->height, 0.93, 0.01);
+}
+
+TEST(FileFacts, OfGltfListClipsSkinsAndMeshesAndWhatRepairMends) {
+  KINEGRAPH_NEEDS_MOCAP();
+  const Told knight = told_of("gltf/KayKit_Knight.glb");
+  EXPECT_EQ(knight.facts.gltf->clips.size(), 76u);
+  EXPECT_EQ(knight.facts.gltf->clips[0].name, "1H_Melee_Attack_Chop");
+  EXPECT_EQ(knight.facts.gltf->clips[0].keys, 33u);
+  EXPECT_EQ(knight.facts.gltf->skins.at(0).joints, 41u);
+  EXPECT_EQ(knight.facts.gltf->meshes.size(), 15u);
+  const Told man = told_of("gltf/CesiumMan.glb");
+  EXPECT_THAT(codes(man.facts), HasSubstr("uneven-weights"));
+  EXPECT_THAT(codes(man.facts), HasSubstr("skinned-below"));
+  EXPECT_THAT(man.text, HasSubstr("clips     1: "));
+}
+
+TEST(FileFacts, NameWhatOtherProgramsStumbleOver) {
+  PlainFiles files;
+  files.made["/odd.bvh"] =
+      "HIERARCHY\nROOT Hips it\n{\n OFFSET 0 5 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation "
+      "Xrotation "
+      "Yrotation\n JOINT Arm\n {\n  OFFSET 0 60 0\n  CHANNELS 3 Zrotation Xrotation Yrotation\n }\n}\n"
+      "MOTION\nFrames: 2\nFrame Time: 0.01\n0 5 0 0 0 179 0 0 0\n0 5 0 0 0 -179 0 0 0\n";
+  const std::string all = codes(told_of(files, "/odd.bvh").facts);
+  for (const char* code : {"three-adds-offset", "assimp-names", "three-names", "euler-wraps", "no-end-site"})
+    EXPECT_THAT(all, HasSubstr(code));
+}
+
+TEST(FileFacts, SayWhereTheFigureLiesAlongZ) {
+  KINEGRAPH_NEEDS_MOCAP();
+  EXPECT_THAT(codes(told_of("fair/dab.bvh").facts), HasSubstr("up-axis"));
+  EXPECT_EQ(codes(told_of("cmu/bvh_daz/49_06.bvh").facts).find("up-axis"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kinegraph
