@@ -7,6 +7,7 @@
 #include <set>
 
 #include "graph/file/write.h"
+#include "headless/draws/xml_text.h"
 #include "headless/exit_code.h"
 #include "headless/sha256.h"
 
@@ -44,25 +45,6 @@ Json node_json(const NodeRun& run) {
 
 std::string relative_to(const std::string& folder, const std::string& path) {
   return std::filesystem::path(path).lexically_relative(folder).generic_string();
-}
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (c == '\n')
-      out += "&#10;";
-    else if (static_cast<unsigned char>(c) >= 32)
-      out += c;
-  }
-  return out;
 }
 
 std::string said_by(const NodeRun& run) {
@@ -170,7 +152,7 @@ std::string junit_of(const Outcome& outcome, const Program& program, const Opene
   int failures = 0, errors = 0, skipped = 0;
   auto wrong = [&](const std::string& what, const std::string& text) {
     ++errors;
-    return fmt::format("<error message=\"{}\">{}</error>", escaped(what), escaped(text));
+    return fmt::format("<error message=\"{}\">{}</error>", xml_text(what), xml_text(text));
   };
   for (const auto& problem : outcome.problems)
     if (problem.severity == Severity::error)
@@ -187,8 +169,8 @@ std::string junit_of(const Outcome& outcome, const Program& program, const Opene
       if (!rule.passed) {
         ++failures;
         auto measured = fmt::format("measured {}, limit {}", value_text(rule.value), value_text(rule.limit));
-        inside = fmt::format("<failure message=\"{}: {}\">{}</failure>", escaped(rule.rule),
-                             escaped(measured), escaped(measured));
+        inside = fmt::format("<failure message=\"{}: {}\">{}</failure>", xml_text(rule.rule),
+                             xml_text(measured), xml_text(measured));
       }
       cases.push_back({name, rule.rule, inside, 0});
     }
@@ -207,10 +189,10 @@ std::string junit_of(const Outcome& outcome, const Program& program, const Opene
       "<testsuites tests=\"{0}\" failures=\"{1}\" errors=\"{2}\">\n"
       "  <testsuite name=\"{3}\" tests=\"{0}\" failures=\"{1}\" errors=\"{2}\" skipped=\"{4}\" "
       "time=\"{5:.3f}\">\n",
-      cases.size(), failures, errors, escaped(opened.shown), skipped, log.seconds);
+      cases.size(), failures, errors, xml_text(opened.shown), skipped, log.seconds);
   for (const auto& one : cases) {
-    text += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escaped(one.of),
-                        escaped(one.name), one.seconds);
+    text += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", xml_text(one.of),
+                        xml_text(one.name), one.seconds);
     text += one.inside.empty() ? "/>\n" : ">" + one.inside + "</testcase>\n";
   }
   return text + "  </testsuite>\n</testsuites>\n";

@@ -2,9 +2,9 @@
 
 #include "graph/builtin_nodes.h"
 #include "nodes/components/components.h"
-#include "nodes/judge/metrics.h"
 #include "nodes/motion/character.h"
 #include "nodes/motion/contacts.h"
+#include "nodes/motion/metrics.h"
 #include "nodes/motion/motion.h"
 #include "nodes/motion/points.h"
 #include "nodes/style/stats.h"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "headless/draws/canvas.h"
+#include "headless/draws/xml_text.h"
 
 namespace kinegraph {
 
@@ -15,23 +16,6 @@ std::string decimal(double value) {
   while (text.back() == '0') text.pop_back();
   if (text.back() == '.') text.pop_back();
   return text == "-0" ? "0" : text;
-}
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 32 || c == '\t')
-      out += c;
-  }
-  return out;
 }
 
 std::string hex(Color color) {
@@ -105,7 +89,7 @@ struct SvgWriter {
     body += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\"{}{}{} fill=\"{}\"{}>{}</text>\n",
                         decimal(text.at.x), decimal(text.at.y), decimal(style.size),
                         style.bold ? " font-weight=\"bold\"" : "", anchor, turned, hex(style.color),
-                        opacity("fill-opacity", style.color.a), escaped(text.text));
+                        opacity("fill-opacity", style.color.a), xml_text(text.text));
   }
   void operator()(const Canvas::Clip& clip) {
     auto name = fmt::format("c{}", ++named);
@@ -128,7 +112,7 @@ std::string Canvas::svg(std::string_view title) const {
       "role=\"img\" "
       "font-family=\"'DejaVu Sans', Verdana, 'Bitstream Vera Sans', sans-serif\" stroke-linecap=\"round\" "
       "stroke-linejoin=\"round\">\n<title>{2}</title>\n<defs>\n{3}</defs>\n{4}</svg>\n",
-      decimal(width_), decimal(height_), escaped(title), writer.definitions, writer.body);
+      decimal(width_), decimal(height_), xml_text(title), writer.definitions, writer.body);
 }
 
 }  // namespace kinegraph

@@ -4,7 +4,7 @@
 
 #include "headless/draws/canvas.h"
 #include "nodes/components/components.h"
-#include "nodes/judge/metrics.h"
+#include "nodes/motion/metrics.h"
 #include "nodes/style/stats.h"
 #include "nodes/time/warp.h"
 
@@ -16,7 +16,8 @@ Canvas draw_warp(const Warp& warp, const std::string& title);
 Canvas draw_stats(const Stats& stats, const std::string& title);
 // A table of the overall metrics, and bars over the joints for those measured per joint.
 Canvas draw_metrics(const Metrics& metrics, const std::string& title);
-// Each component as a small strip with a caption, its signal underneath with the segments shaded; last all together.
+// Each component as a small strip with a caption, its signal underneath with the segments shaded; last all
+// together.
 Canvas draw_components(const Components& components, const std::string& title);
 // The metrics of ComponentMeaning: bars for d_emotion and each region, a column a component.
 bool is_meaning(const Metrics& metrics);

@@ -6,7 +6,7 @@
 #include "nodes/components/points_to_rotations.h"
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/encoded_root.h"
-#include "nodes/style/quaternion_mean.h"
+#include "nodes/motion/quaternion_mean.h"
 
 namespace kinegraph {
 namespace {

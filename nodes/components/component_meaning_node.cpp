@@ -1,8 +1,8 @@
 #include "graph/compute.h"
 #include "graph/node_type.h"
 #include "nodes/components/component_meaning.h"
-#include "nodes/judge/metric_name.h"
-#include "nodes/judge/metrics.h"
+#include "nodes/motion/metric_name.h"
+#include "nodes/motion/metrics.h"
 
 namespace kinegraph {
 namespace {
@@ -62,6 +62,7 @@ NodeType component_meaning_node() {
   type.param("emotion", std::move(emotion),
              "The components that carry the emotion. Empty: the one with the largest d_emotion.");
   type.param("regions", table(pattern("*")), "Parts of the body: a name and a pattern of joints each.");
+  type.code_version = 2;
   type.compute = explain;
   return type;
 }

@@ -1,5 +1,5 @@
 // Analyses (stats, warp, contacts, metrics …) as JSON that reads back without loss, and as tables.
-// A further kind is its pair of functions in KIND_file.cpp and one line in analysis_kinds().
+// A further kind is its three functions, in KIND_file.cpp beside the value, and one line in analysis_kinds().
 #pragma once
 #include <string>
 #include <string_view>
@@ -32,7 +32,8 @@ Json stats_json(const Value& stats);
 ValuePtr stats_of_json(const Json& json);
 std::string stats_table(
     const Value& stats);  // joint, mean x y z w, spread, Euler means and spreads; then the root's travel
-Json components_json(const Value& components);  // mean, mixing matrix, signals, convergence, and the clips themselves
+Json components_json(
+    const Value& components);  // mean, mixing matrix, signals, convergence, and the clips themselves
 ValuePtr components_of_json(const Json& json);
 std::string components_table(const Value& components);  // frame, segment, u1, u2, …
 Json warp_json(const Value& warp);

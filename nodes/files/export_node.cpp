@@ -73,16 +73,7 @@ NodeType export_node() {
       {"source", "The unit of the file that the motion came from; metres without one."}};
   for (const LengthUnit& unit : known_units()) units.push_back({unit.name, to_text(unit)});
   type.param("unit", unit_of(std::move(units)), "The unit of the file's lengths; a number is metres.");
-  type.resolve = [](Json::Object& params) {
-    auto format = params.find("format");
-    auto file = params.find("file");
-    if (format == params.end() || file == params.end() || !format->second.is_string() ||
-        !file->second.is_string())
-      return;
-    if (format->second.string() != "auto") return;
-    const std::string found = write_format_of(file->second.string());
-    if (!found.empty()) format->second = found;
-  };
+  type.resolve = [](Json::Object& params) { resolve_format(params, write_format_of); };
   type.also_writes = [](const Params& params) {
     const std::string& path = params.text("file");
     const std::string& named = params.text("format");

@@ -206,6 +206,15 @@ std::string write_format_of(std::string_view path) {
   return format_of(write_formats(), path);
 }
 
+void resolve_format(Json::Object& params, std::string (*format_of)(std::string_view path)) {
+  const auto format = params.find("format"), file = params.find("file");
+  if (format == params.end() || file == params.end() || !format->second.is_string() ||
+      !file->second.is_string() || format->second.string() != "auto")
+    return;
+  const std::string found = format_of(file->second.string());
+  if (!found.empty()) format->second = found;
+}
+
 std::string gltf_buffer_name(std::string_view path) {
   std::string_view name = path.substr(path.find_last_of('/') + 1);
   if (const std::size_t dot = name.find_last_of('.'); dot != std::string_view::npos && dot > 0)

@@ -43,6 +43,9 @@ const std::vector<WriteFormat>& write_formats();
 // The key of the format of that ending, or "" ("clip.BVH" is bvh).
 std::string read_format_of(std::string_view path);
 std::string write_format_of(std::string_view path);
+// NodeType::resolve of Load and Export: `format` auto becomes what the ending of `file` says, where it says
+// any.
+void resolve_format(Json::Object& params, std::string (*format_of)(std::string_view path));
 // The file that a .gltf's numbers go to, beside it: "walk.bin" of "/x/walk.gltf".
 std::string gltf_buffer_name(std::string_view path);
 

@@ -84,16 +84,7 @@ NodeType load_node() {
     if (!params.text("skeleton").empty()) return std::vector<std::string>{};
     return companions_of(params.text("file"), read_options(params), files);
   };
-  type.resolve = [](Json::Object& params) {
-    auto format = params.find("format");
-    auto file = params.find("file");
-    if (format == params.end() || file == params.end() || !format->second.is_string() ||
-        !file->second.is_string())
-      return;
-    if (format->second.string() != "auto") return;
-    const std::string found = read_format_of(file->second.string());
-    if (!found.empty()) format->second = found;
-  };
+  type.resolve = [](Json::Object& params) { resolve_format(params, read_format_of); };
   type.compute = load;
   return type;
 }

@@ -1,7 +1,7 @@
 #include "nodes/files/analysis_file.h"
 #include "nodes/files/decimal.h"
 #include "nodes/files/json_fields.h"
-#include "nodes/judge/metrics.h"
+#include "nodes/motion/metrics.h"
 
 namespace kinegraph {
 

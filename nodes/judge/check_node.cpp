@@ -5,8 +5,8 @@
 
 #include "graph/compute.h"
 #include "graph/node_type.h"
-#include "nodes/judge/metrics.h"
 #include "nodes/judge/rules.h"
+#include "nodes/motion/metrics.h"
 
 namespace kinegraph {
 

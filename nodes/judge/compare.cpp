@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "nodes/judge/metric_name.h"
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/kinematics.h"
+#include "nodes/motion/metric_name.h"
 
 namespace kinegraph {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "graph/work.h"
-#include "nodes/judge/metrics.h"
+#include "nodes/motion/metrics.h"
 #include "nodes/motion/motion.h"
 
 namespace kinegraph {

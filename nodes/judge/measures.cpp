@@ -8,8 +8,8 @@
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/judge/distance_measures.h"
 #include "nodes/judge/feet_measures.h"
-#include "nodes/judge/metric_name.h"
 #include "nodes/judge/smoothness_measures.h"
+#include "nodes/motion/metric_name.h"
 #include "nodes/node_params.h"
 #include "nodes/style/quat_stats.h"
 

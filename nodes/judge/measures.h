@@ -5,8 +5,8 @@
 
 #include "graph/work.h"
 #include "nodes/judge/measured.h"
-#include "nodes/judge/metrics.h"
 #include "nodes/motion/contacts.h"
+#include "nodes/motion/metrics.h"
 #include "nodes/motion/motion.h"
 
 namespace kinegraph {

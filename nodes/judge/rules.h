@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "nodes/judge/metrics.h"
+#include "nodes/motion/metrics.h"
 
 namespace kinegraph {
 

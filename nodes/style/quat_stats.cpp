@@ -3,8 +3,9 @@
 #include <cmath>
 #include <cstddef>
 
+#include "nodes/motion/quaternion_mean.h"
+#include "nodes/motion/rotation_channels.h"
 #include "nodes/style/euler_channels.h"
-#include "nodes/style/quaternion_mean.h"
 
 namespace kinegraph {
 
@@ -56,24 +57,6 @@ const char* name_of(MeanKind kind) {
 }
 const char* name_of(StyleSpace space) {
   return space == StyleSpace::quaternion ? "quaternion" : "euler";
-}
-
-std::vector<double> as_channels(std::span<const Quat> rotations) {
-  const std::size_t n = rotations.size();
-  std::vector<double> channels(4 * n);
-  for (std::size_t t = 0; t < n; ++t) {
-    channels[t] = rotations[t].x;
-    channels[n + t] = rotations[t].y;
-    channels[2 * n + t] = rotations[t].z;
-    channels[3 * n + t] = rotations[t].w;
-  }
-  return channels;
-}
-
-ConstQuatTrack track_of(const std::vector<double>& channels) {
-  const std::size_t n = channels.size() / 4;
-  const std::span<const double> all(channels);
-  return {all.subspan(0, n), all.subspan(n, n), all.subspan(2 * n, n), all.subspan(3 * n, n)};
 }
 
 Stats quat_stats(const Motion& motion, const QuatStatsParams& params, Work& work) {

@@ -31,8 +31,4 @@ Stats quat_stats(const Motion& motion, const QuatStatsParams& params, Work& work
 // The same, for a caller that has encoded the root already.
 Stats quat_stats(const Motion& motion, const EncodedRoot& root, const QuatStatsParams& params, Work& work);
 
-// A root's rotations as a track: x, then y, z and w, each as long as `rotations`.
-std::vector<double> as_channels(std::span<const Quat> rotations);
-ConstQuatTrack track_of(const std::vector<double>& channels);
-
 }  // namespace kinegraph

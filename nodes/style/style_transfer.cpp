@@ -12,9 +12,10 @@
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/encoded_root.h"
+#include "nodes/motion/half_angle.h"
+#include "nodes/motion/rotation_channels.h"
 #include "nodes/node_params.h"
 #include "nodes/style/euler_channels.h"
-#include "nodes/style/half_angle.h"
 #include "nodes/style/travel_factor.h"
 
 namespace kinegraph {
@@ -187,8 +188,7 @@ JointGain transfer_rho(EncodedRoot& root, const Skeleton& skeleton, const Source
   const std::vector<double> from = as_channels(root.rho);
   std::vector<double> to(from.size());
   const std::size_t n = root.rho.size();
-  const std::span<double> all(to);
-  const QuatTrack track{all.subspan(0, n), all.subspan(n, n), all.subspan(2 * n, n), all.subspan(3 * n, n)};
+  const QuatTrack track = track_of(to);
   const JointGain gain = transfer_joint(track_of(from), source, params, track);
   const Quat rest = skeleton.above * skeleton.joints.front().rest;
   const Quat unrest = inverse(rest);

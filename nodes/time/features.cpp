@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "nodes/motion/joint_pattern.h"
+#include "nodes/motion/quaternion_mean.h"
+#include "nodes/motion/rotation_channels.h"
 
 namespace kinegraph {
 namespace {
@@ -57,26 +59,6 @@ double largest_from(std::span<const double> values, double mean) {
   double largest = 0;
   for (double value : values) largest = std::max(largest, std::abs(value - mean));
   return largest;
-}
-
-// The Karcher mean of a joint's rotations, from the normalised sum of quaternions in a few steps: a point to
-// take logs around, so its last digits don't matter.
-template <class Rotation>
-Quat mean_rotation(std::size_t frames, const Rotation& rotation) {
-  Quat sum{0, 0, 0, 0};
-  for (std::size_t t = 0; t < frames; ++t) {
-    const Quat q = nearer(rotation(t), t ? sum : Quat{});
-    sum = {sum.x + q.x, sum.y + q.y, sum.z + q.z, sum.w + q.w};
-  }
-  Quat mean = normalized(sum);
-  for (int step = 0; step < 8; ++step) {
-    Vec3 logs;
-    for (std::size_t t = 0; t < frames; ++t) logs += log(nearer(inverse(mean) * rotation(t), Quat{}));
-    logs = logs / static_cast<double>(frames);
-    mean = normalized(mean * exp(logs));
-    if (norm(logs) < 1e-6) break;
-  }
-  return mean;
 }
 
 // 2 log(difference(joint, q)) of every joint and frame; the root's q is ρ.
@@ -139,13 +121,13 @@ RotationVectors rotation_vectors(const Motion& motion, const EncodedRoot& root, 
   RotationVectors result;
   const auto joints = static_cast<std::size_t>(motion.joints());
   result.means.resize(joints);
+  const std::vector<double> rho = as_channels(root.rho);
   work.parallel(joints, 1 + 20'000 / std::max<std::size_t>(motion.frames(), 1),
                 [&](std::size_t begin, std::size_t end) {
                   for (std::size_t joint = begin; joint < end; ++joint) {
-                    const ConstQuatTrack track = motion.rotation(static_cast<int>(joint));
                     work.check();
-                    result.means[joint] = mean_rotation(
-                        motion.frames(), [&](std::size_t t) { return joint == 0 ? root.rho[t] : track[t]; });
+                    const ConstQuatTrack own = motion.rotation(static_cast<int>(joint));
+                    result.means[joint] = karcher_mean(joint == 0 ? track_of(rho) : own).mean;
                   }
                 });
   result.v = vectors_of(

@@ -2,7 +2,7 @@
 
 #include "graph/compute.h"
 #include "graph/node_type.h"
-#include "nodes/judge/metrics.h"
+#include "nodes/motion/metrics.h"
 #include "nodes/time/segment.h"
 
 namespace kinegraph {
@@ -45,6 +45,7 @@ NodeType segment_node() {
               "First frame of each piece and the frame after its last: piece1.start, piece1.end …");
   type.param("piece", integer(1).between(1, 1e6).slider(1, 10), "Which piece to pass on, counted from 1.");
   type.param("sensitivity", number(1).between(0.05, 20).slider(0.2, 3), "Larger: more cuts.");
+  type.code_version = 2;
   type.compute = compute;
   return type;
 }

@@ -2,7 +2,7 @@
 
 #include "headless/draws/picture.h"
 #include "nodes/components/ica.h"
-#include "nodes/judge/metrics.h"
+#include "nodes/motion/metrics.h"
 #include "tests/nodes/time/walks.h"
 
 namespace kinegraph {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "nodes/components/alignment.h"
-#include "nodes/judge/metrics.h"
+#include "nodes/motion/metrics.h"
 #include "tests/nodes/components/clips.h"
 #include "tests/nodes/run_node.h"
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "graph/diagnostic.h"
-#include "nodes/judge/metrics.h"
 #include "nodes/motion/contacts.h"
+#include "nodes/motion/metrics.h"
 #include "nodes/style/stats.h"
 #include "nodes/time/warp.h"
 

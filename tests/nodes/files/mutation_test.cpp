@@ -5,7 +5,7 @@
 #include <random>
 
 #include "nodes/files/analysis_file.h"
-#include "nodes/judge/metrics.h"
+#include "nodes/motion/metrics.h"
 #include "tests/fuzz/read_once.h"
 #include "tests/nodes/files/bvh_texts.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "nodes/all_nodes.h"
-#include "nodes/judge/metrics.h"
+#include "nodes/motion/metrics.h"
 #include "tests/nodes/run_node.h"
 #include "tests/nodes/style/small_motion.h"
 

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "nodes/gait/gait.h"
-#include "nodes/judge/metric_name.h"
 #include "nodes/motion/encoded_root.h"
+#include "nodes/motion/metric_name.h"
 #include "nodes/style/quat_stats.h"
 #include "tests/nodes/style/independent_style_distance.h"
 #include "tests/nodes/style/small_motion.h"

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "graph/diagnostic.h"
-#include "nodes/judge/metrics.h"
 #include "nodes/motion/contacts.h"
+#include "nodes/motion/metrics.h"
 #include "nodes/motion/points.h"
 #include "nodes/style/stats.h"
 #include "nodes/time/warp.h"

@@ -1,4 +1,4 @@
-#include "nodes/style/half_angle.h"
+#include "nodes/motion/half_angle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "nodes/style/quaternion_mean.h"
+#include "nodes/motion/quaternion_mean.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "nodes/judge/metrics.h"
+#include "nodes/motion/metrics.h"
 
 #include <cmath>
 

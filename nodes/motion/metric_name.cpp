@@ -1,4 +1,4 @@
-#include "nodes/judge/metric_name.h"
+#include "nodes/motion/metric_name.h"
 
 namespace kinegraph {
 

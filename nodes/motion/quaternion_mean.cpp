@@ -1,11 +1,11 @@
-#include "nodes/style/quaternion_mean.h"
+#include "nodes/motion/quaternion_mean.h"
 
 #include <array>
 #include <cstddef>
 
 #include "nodes/motion/elementary.h"
+#include "nodes/motion/half_angle.h"
 #include "nodes/motion/rotation.h"
-#include "nodes/style/half_angle.h"
 
 namespace kinegraph {
 
