@@ -10,13 +10,14 @@
 namespace kinegraph {
 
 int merge_command(const Program& program, const MergeArguments& arguments) {
-  const Opened base = version_of_graph(arguments.base, program.registry);
-  const Opened ours = version_of_graph(arguments.ours, program.registry);
-  const Opened theirs = version_of_graph(arguments.theirs, program.registry);
+  Opened base = version_of_graph(arguments.base, program.registry);
+  Opened ours = version_of_graph(arguments.ours, program.registry);
+  Opened theirs = version_of_graph(arguments.theirs, program.registry);
   bool good = true;
   for (const Opened* side : {&base, &ours, &theirs}) good = usable_version(program, *side) && good;
   if (!good) return exit_code::invalid;
-  const Merge merged = merge(base.document, ours.document, theirs.document, program.registry);
+  const Merge merged =
+      merge(std::move(base.document), std::move(ours.document), std::move(theirs.document), program.registry);
   for (const MergeConflict& conflict : merged.conflicts)
     program.terminal.message(
         fmt::format("{}: {}\n", program.terminal.tinted_message("conflict", Tint::red), conflict.what));

@@ -36,7 +36,10 @@ std::string bytes_of(const std::string& path, Diagnostics& problems) {
   }
   errno = 0;
   std::ifstream in(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::string bytes;
+  bytes.reserve(static_cast<std::size_t>(fs::file_size(path, problem)) + 1);
+  for (char block[1 << 16]; in.read(block, sizeof block), in.gcount() > 0;)
+    bytes.append(block, static_cast<std::size_t>(in.gcount()));
   if (!in.is_open() || in.bad())
     problems.push_back(
         error("unreadable-file", fmt::format("'{}' can't be read: {}", path, std::strerror(errno)))

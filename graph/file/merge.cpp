@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "graph/file/conflict_text.h"
 #include "graph/file/merge_lists.h"
@@ -30,9 +31,8 @@ std::string shown(const Value& value) {
 
 class Merger {
  public:
-  Merger(const Document& base, const Document& ours, const Document& theirs, const Registry& registry)
-      : registry_(registry) {
-    align(base, ours, theirs);
+  Merger(Document base, Document ours, Document theirs, const Registry& registry) : registry_(registry) {
+    align(std::move(base), std::move(ours), std::move(theirs));
   }
 
   Merge run(const std::string& our_label, const std::string& their_label) {
@@ -66,7 +66,7 @@ class Merger {
   }
 
   // Brings all three under one set of names: a node renamed on one side is so on the other and in the base.
-  void align(const Document& base, const Document& ours, const Document& theirs) {
+  void align(Document base, Document ours, Document theirs) {
     const Renames here = renames(base, ours), there = renames(base, theirs);
     Renames for_base = here, for_ours, for_theirs;
     std::set<std::string, std::less<>> taken;  // by a rename of this merge
@@ -88,9 +88,9 @@ class Merger {
       for_base[from] = to;
       if (ours.nodes.contains(from)) for_ours[from] = to;
     }
-    base_ = renamed(base, for_base);
-    ours_ = renamed(ours, for_ours);
-    theirs_ = renamed(theirs, for_theirs);
+    base_ = renamed(std::move(base), for_base);
+    ours_ = renamed(std::move(ours), for_ours);
+    theirs_ = renamed(std::move(theirs), for_theirs);
   }
 
   template <class Units>
@@ -112,6 +112,12 @@ class Merger {
     else
       document.nodes.erase(name);
   }
+  static bool equal(const Node* a, const Node* b) {
+    if (!a || !b) return a == b;
+    return a->type == b->type && a->version == b->version && a->enabled == b->enabled && a->note == b->note &&
+           a->older == b->older && a->params == b->params && a->inputs == b->inputs &&
+           a->extras == b->extras && a->missing == b->missing;
+  }
   // One type, and known or not on all sides that have it: then its parts can be told apart.
   static bool alike(const Node* a, const Node* b) {
     return !a || !b || (a->type == b->type && a->missing.has_value() == b->missing.has_value());
@@ -119,6 +125,12 @@ class Merger {
 
   void merge_node(const std::string& name) {
     const Node *was = find(base_, name), *our = find(ours_, name), *their = find(theirs_, name);
+    // Most nodes are as one side left them.
+    if (const bool as_ours = equal(our, their) || equal(was, their); as_ours || equal(was, our)) {
+      put(our_result_, name, as_ours ? our : their);
+      put(their_result_, name, as_ours ? our : their);
+      return;
+    }
     if (our && their && alike(our, their)) return merge_parts(name, alike(was, our));
     const Value before = whole(was), here = whole(our), there = whole(their);
     const bool changed_here = here != before, changed_there = there != before;
@@ -242,17 +254,20 @@ class Merger {
       for (const Diagnostic& problem : validate(document, registry_, options))
         if (problem.severity == Severity::error) what(problem);
     };
+    Diagnostics found;
+    errors(our_result_, [&](const Diagnostic& problem) { found.push_back(problem); });
+    if (found.empty()) return;
     for (const Document* side : {&ours_, &theirs_})
       errors(*side, [&](const Diagnostic& problem) { known.insert(text(problem)); });
-    errors(our_result_, [&](const Diagnostic& problem) {
-      if (known.contains(text(problem))) return;
+    for (const Diagnostic& problem : found) {
+      if (known.contains(text(problem))) continue;
       const std::string where = problem.node.empty()   ? problem.param
                                 : problem.port.empty() ? problem.node
                                                        : problem.node + "." + problem.port;
       conflict(fmt::format("{}: {} (by both sides together)", where, problem.message),
                problem.node.empty() ? std::nullopt : std::optional<Unit>(Unit{Kind::node, problem.node, {}}));
       take_sides(problem);
-    });
+    }
   }
 
   // In the text such a problem shows where the two sides differ: at its node, else at the nodes that it is
@@ -292,9 +307,9 @@ class Merger {
 
 }  // namespace
 
-Merge merge(const Document& base, const Document& ours, const Document& theirs, const Registry& registry,
+Merge merge(Document base, Document ours, Document theirs, const Registry& registry,
             const std::string& our_label, const std::string& their_label) {
-  return Merger(base, ours, theirs, registry).run(our_label, their_label);
+  return Merger(std::move(base), std::move(ours), std::move(theirs), registry).run(our_label, their_label);
 }
 
 }  // namespace kinegraph

@@ -25,7 +25,7 @@ struct Merge {
 // element, tables by key. What is only for the eye (ui) never conflicts. The result is validated: what is
 // wrong with it and was so on neither side (a cycle, a link that leads nowhere, two nodes that write one
 // file) is a conflict. `our_label`, `their_label` stand behind the markers.
-Merge merge(const Document& base, const Document& ours, const Document& theirs, const Registry& registry,
+Merge merge(Document base, Document ours, Document theirs, const Registry& registry,
             const std::string& our_label = "ours", const std::string& their_label = "theirs");
 
 }  // namespace kinegraph

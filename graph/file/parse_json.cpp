@@ -206,8 +206,10 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     Json& parent = *open_.back();
     if (parent.is_array()) return &parent.array().emplace_back(std::move(value));
     value.key_place = key_place_;
-    const auto [member, fresh] = parent.object().try_emplace(key_);
-    if (!fresh) {
+    // Canonical files hold their keys in order, so the end is the likeliest place.
+    const std::size_t members = parent.object().size();
+    const auto member = parent.object().try_emplace(parent.object().end(), key_);
+    if (parent.object().size() == members) {
       problem(error("duplicate-key", fmt::format("{} stands here a second time", in_quotes(key_)))
                   .hinting(fmt::format("the first is in line {}; keep one", member->second.key_place.line)),
               key_place_);

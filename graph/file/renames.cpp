@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace kinegraph {
@@ -119,11 +120,11 @@ Renames renames(const Document& before, const Document& after) {
   return known;
 }
 
-Document renamed(const Document& document, const Renames& names) {
+Document renamed(Document document, const Renames& names) {
   if (names.empty()) return document;
-  Document result = document;
-  result.nodes.clear();
-  for (const auto& [name, node] : document.nodes) {
+  Document result = std::move(document);
+  const auto before = std::exchange(result.nodes, {});
+  for (const auto& [name, node] : before) {
     Node changed = node;
     for (auto& [port, inputs] : changed.inputs)
       for (Link& link : inputs.links) link = renamed(link, names);
@@ -133,8 +134,8 @@ Document renamed(const Document& document, const Renames& names) {
   for (auto* published : {&result.publish.params, &result.publish.inputs, &result.publish.outputs})
     for (auto& [name, links] : *published)
       for (Link& link : links) link = renamed(link, names);
-  result.ui.nodes.clear();
-  for (const auto& [name, entry] : document.ui.nodes) result.ui.nodes[now(name, names)] = entry;
+  const auto entries = std::exchange(result.ui.nodes, {});
+  for (const auto& [name, entry] : entries) result.ui.nodes[now(name, names)] = entry;
   for (auto& [name, frame] : result.ui.frames) {
     const Json* nodes = frame.find("nodes");
     if (!nodes || !nodes->is_array()) continue;

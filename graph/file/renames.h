@@ -16,6 +16,6 @@ Renames renames(const Document& before, const Document& after);
 
 // The document with all of them made at once: links, publish and ui follow. The new names are free, or of
 // nodes that are renamed themselves.
-Document renamed(const Document& document, const Renames& names);
+Document renamed(Document document, const Renames& names);
 
 }  // namespace kinegraph
