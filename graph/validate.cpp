@@ -217,6 +217,16 @@ class Validator {
   void check_file_of_graph(const std::string& name, const Node& node) {
     Diagnostic why = node.nested->why;
     const auto stored = node.params.find("file");
+    const NodeType* type = registry_.find(node.type);
+    const Param* param = type ? type->find_param("file") : nullptr;
+    Diagnostics found;
+    if (param && stored != node.params.end() && !value_of(node, *param, found)) {
+      for (Diagnostic& problem : found) add(std::move(problem), stored->second.place, name);
+      return;
+    }
+    std::error_code ignored;
+    if (options_.check_files && !node.nested->path.empty() && !fs::exists(node.nested->path, ignored))
+      why.hint = file_hint(node.nested->path);
     const bool fatal = why.code == "graph-cycle" || why.code == "too-many-graphs";
     if (!fatal && !(options_.check_files && node.enabled)) why.severity = Severity::warning;
     why.param = "file";

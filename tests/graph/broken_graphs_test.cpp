@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "graph/nested.h"
 #include "graph/validate.h"
 #include "tests/graph/toy_graphs.h"
+#include "tests/graph/toys.h"
 
 namespace kinegraph {
 namespace {
@@ -36,6 +38,10 @@ std::string nodes(const std::string& text, const std::string& rest = {}) {
 const std::string walk = R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}})";
 std::string after_walk(const std::string& text, const std::string& rest = {}) {
   return nodes(walk + ",\n" + text, rest);
+}
+// A Graph node "g" of lib/restyle.kg.json in line 3, whose last brace is added.
+std::string after_restyle(const std::string& text, const std::string& rest = {}) {
+  return after_walk(R"("g": {"type": "Graph", )" + text + "}", rest);
 }
 std::string deep(int levels) {
   return "{\"format\": \"kinegraph\", \"schema\": 1, \"x-a\":\n" + std::string(levels - 1, '[') +
@@ -229,8 +235,120 @@ const Mistake mistakes[] = {
      "unknown-port", 4, "\"walk.stats\"", "", "publish.outputs.o", "motion"},
     {"PublishedOutputAsAList", nodes(walk, ",\n\"publish\": {\"outputs\": {\"o\": [\"walk.motion\"]}}"),
      "one-link", 4, "[", "", "publish.outputs.o", "node.port"},
+    {"PublishIsNoList", nodes(walk, ",\n\"publish\": []"), "wrong-type", 4, "[", "", "", "object"},
+    {"PublishUnknownKey", nodes(walk, ",\n\"publish\": {\"param\": {}}"), "unknown-key", 4, "\"param\"", "",
+     "", "params"},
+    {"PublishedUnderABadName", nodes(walk, ",\n\"publish\": {\"params\": {\"my clip\": \"walk.file\"}}"),
+     "bad-name", 4, "\"my clip\"", "", "", "letter"},
+    {"PublishedWithoutAPort", nodes(walk, ",\n\"publish\": {\"outputs\": {\"o\": \"walk\"}}"), "bad-link", 4,
+     "\"walk\"", "", "publish.outputs.o", "node.port"},
+    {"PublishedInputIsNotThere", nodes(walk, ",\n\"publish\": {\"inputs\": {\"i\": \"walk.motion\"}}"),
+     "unknown-port", 4, "\"walk.motion\"", "", "publish.inputs.i", ""},
+    {"PublishedInputsOfTwoTypes",
+     after_walk(
+         R"("s": {"type": "StyleTransfer", "inputs": {"motion": "walk.motion", "style": "q.stats"}}, "q": {"type": "QuatStats", "inputs": {"motion": "walk.motion"}})",
+         ",\n\"publish\": {\"inputs\": {\"i\": [\"s.motion\", \"s.style\"]}}"),
+     "type-mismatch", 5, "\"s.style\"", "", "publish.inputs.i", ""},
+    {"PublishedTwiceUnderOneName",
+     nodes(walk, ",\n\"publish\": {\"params\": {\"p\": \"walk.file\", \"p\": \"walk.fps\"}}"),
+     "duplicate-key", 4, "\"p\"", "", "", "line 4"},
     {"PublishedNothing", nodes(walk, ",\n\"publish\": {\"params\": {\"o\": []}}"), "bad-link", 4, "[", "",
      "publish.params.o", "leave"},
+
+    // Variables.
+    {"VariablesAsAList", nodes(walk, ",\n\"variables\": [1]"), "wrong-type", 4, "[", "", "", "object"},
+    {"VariableWithABadName", nodes(walk, ",\n\"variables\": {\"my clip\": 1}"), "bad-name", 4, "\"my clip\"",
+     "", "", "letter"},
+    {"VariableTwice", nodes(walk, ",\n\"variables\": {\"a\": 1, \"a\": 2}"), "duplicate-key", 4, "\"a\"", "",
+     "", "line 4"},
+    {"VariableThatIsNoTextInAPath",
+     nodes(R"("a": {"type": "Load", "params": {"file": "clips/${clip}.bvh"}})",
+           R"(, "variables": {"clip": [1]})"),
+     "bad-variable", 2, "\"clips/${clip}.bvh\"", "a", "file", ""},
+    {"VariableOutOfRange",
+     nodes(R"("a": {"type": "Load", "params": {"fps": "${rate}"}})", R"(, "variables": {"rate": 2000})"),
+     "out-of-range", 2, "\"${rate}\"", "a", "fps", "0 to 1000"},
+    {"UndefinedVariableInAList",
+     after_walk(
+         R"("t": {"type": "StyleTransfer", "params": {"edits": [{"op": "${what}", "component": 1}]}})"),
+     "undefined-variable", 3, "\"${what}\"", "t", "edits[0].op", "there is none"},
+    {"VariableWithoutAName", nodes(R"("a": {"type": "Load", "params": {"file": "clips/${}.bvh"}})"),
+     "bad-variable", 2, "\"clips/${}.bvh\"", "a", "file", "$${"},
+
+    // Graphs inside graphs.
+    {"NoGraphFile", nodes(R"("g": {"type": "Graph"})"), "missing-file", 2, "\"g\"", "g", "file", "\"file\""},
+    {"GraphFileMissing", nodes(R"("g": {"type": "Graph", "params": {"file": "lib/restlye.kg.json"}})"),
+     "missing-file", 2, "\"lib/restlye.kg.json\"", "g", "file", "restyle.kg.json"},
+    {"GraphFileBroken", nodes(R"("g": {"type": "Graph", "params": {"file": "lib/broken.kg.json"}})"),
+     "broken-graph", 2, "\"lib/broken.kg.json\"", "g", "file", "validate"},
+    {"GraphFileIsAClip", nodes(R"("g": {"type": "Graph", "params": {"file": "clips/walk.bvh"}})"),
+     "broken-graph", 2, "\"clips/walk.bvh\"", "g", "file", ""},
+    {"GraphFileOfANewerSchema", nodes(R"("g": {"type": "Graph", "params": {"file": "lib/newer.kg.json"}})"),
+     "broken-graph", 2, "\"lib/newer.kg.json\"", "g", "file", "newer"},
+    {"GraphFileInAnUndefinedPlace",
+     nodes(R"("g": {"type": "Graph", "params": {"file": "${lib}/restyle.kg.json"}})"), "undefined-variable",
+     2, "\"${lib}/restyle.kg.json\"", "g", "file", "there is none"},
+    {"GraphsInACircle", nodes(R"("g": {"type": "Graph", "params": {"file": "lib/circle.kg.json"}})"),
+     "graph-cycle", 2, "\"lib/circle.kg.json\"", "g", "file", ""},
+    {"GraphInsideItself", nodes(R"("g": {"type": "Graph", "params": {"file": "g.kg.json"}})"), "graph-cycle",
+     2, "\"g.kg.json\"", "g", "file", ""},
+    {"UndefinedVariableInsideAGraph",
+     nodes(R"("g": {"type": "Graph", "params": {"file": "lib/asks.kg.json"}})"), "broken-graph", 2,
+     "\"lib/asks.kg.json\"", "g", "file", "validate"},
+    {"UnknownParamOfAGraph", after_restyle(R"("params": {"file": "lib/restyle.kg.json", "amuont": 1})"),
+     "unknown-param", 3, "\"amuont\"", "g", "amuont", "amount"},
+    {"ParamOfAnInnerNode",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json", "transfer.amount": 1})"), "unknown-param", 3,
+     "\"transfer.amount\"", "g", "transfer.amount", "amount"},
+    {"ParamOfAGraphOutOfRange", after_restyle(R"("params": {"file": "lib/restyle.kg.json", "amount": 2})"),
+     "out-of-range", 3, "2", "g", "amount", "0 to 1"},
+    {"ParamOfAGraphOfAnotherType",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json", "amount": "all"})"), "wrong-type", 3,
+     "\"all\"", "g", "amount", "number"},
+    {"ParamOfAGraphIsAnUndefinedVariable",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json", "amount": "${much}"})"), "undefined-variable",
+     3, "\"${much}\"", "g", "amount", "there is none"},
+    {"FileOfAGraphIsMissing",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json", "clip": "clips/prod.bvh"})"), "missing-file",
+     3, "\"clips/prod.bvh\"", "g", "clip", ""},
+    {"UnknownInputOfAGraph",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json"}, "inputs": {"motoin": "walk.motion"})"),
+     "unknown-port", 3, "\"motoin\"", "g", "motoin", "motion"},
+    {"InputOfAGraphLeftOpen", nodes(R"("g": {"type": "Graph", "params": {"file": "lib/restyle.kg.json"}})"),
+     "open-input", 2, "\"g\"", "g", "motion", "Motion"},
+    {"InputOfAGraphOfAnotherType",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json"}, "inputs": {"motion": "walk.points"})"),
+     "type-mismatch", 3, "\"walk.points\"", "g", "motion", "\"motion\" would fit"},
+    {"ListOnAnInputOfAGraph",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json"}, "inputs": {"motion": ["walk.motion"]})"),
+     "one-link", 3, "\"motion\"", "g", "motion", "node.port"},
+    {"UnknownOutputOfAGraph",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json"}, "inputs": {"motion": "walk.motion"}},
+"s": {"type": "QuatStats", "inputs": {"motion": "g.moton"})"),
+     "unknown-port", 4, "\"g.moton\"", "s", "motion", "motion"},
+    {"OutputOfAGraphOfAnotherType",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json"}, "inputs": {"motion": "walk.motion"}},
+"p": {"type": "Check", "inputs": {"metrics": "g.motion"})"),
+     "type-mismatch", 4, "\"g.motion\"", "p", "metrics", "Metrics"},
+    {"LinkToAnInnerNode",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json"}, "inputs": {"motion": "walk.motion"}},
+"s": {"type": "QuatStats", "inputs": {"motion": "g/transfer.motion"})"),
+     "bad-link", 4, "\"g/transfer.motion\"", "s", "motion", "node.port"},
+    {"CycleThroughAGraph", nodes(R"("c": {"type": "Concatenate", "inputs": {"motions": ["g.motion"]}},
+"g": {"type": "Graph", "params": {"file": "lib/restyle.kg.json"}, "inputs": {"motion": "c.motion"}})"),
+     "cycle", 2, "\"g.motion\"", "c", "motions", "remove"},
+    {"PublishedParamOfAGraphIsNotThere",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json"}, "inputs": {"motion": "walk.motion"})",
+                   ",\n\"publish\": {\"params\": {\"a\": \"g.amuont\"}}"),
+     "unknown-param", 5, "\"g.amuont\"", "", "publish.params.a", "amount"},
+    {"PublishedOutputOfAGraphIsNotThere",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json"}, "inputs": {"motion": "walk.motion"})",
+                   ",\n\"publish\": {\"outputs\": {\"o\": \"g.stats\"}}"),
+     "unknown-port", 5, "\"g.stats\"", "", "publish.outputs.o", "motion"},
+    {"PublishedTogetherButOfTwoTypesThroughAGraph",
+     after_restyle(R"("params": {"file": "lib/restyle.kg.json"}, "inputs": {"motion": "walk.motion"})",
+                   ",\n\"publish\": {\"params\": {\"a\": [\"g.amount\", \"g.clip\"]}}"),
+     "type-mismatch", 5, "\"g.clip\"", "", "publish.params.a", "one type"},
 };
 
 class BrokenGraph : public testing::TestWithParam<Mistake> {
@@ -238,11 +356,44 @@ class BrokenGraph : public testing::TestWithParam<Mistake> {
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("kinegraph_broken_" + std::to_string(::getpid()));
     fs::create_directories(folder_ / "clips");
+    fs::create_directories(folder_ / "lib");
     std::ofstream(folder_ / "clips" / "walk.bvh") << "HIERARCHY";
+    const auto file = [&](const char* name, const std::string& text) {
+      std::ofstream(folder_ / name) << text;
+    };
+    file(
+        "lib/restyle.kg.json",
+        nodes(
+            R"("sample": {"type": "Load", "params": {"file": "../clips/walk.bvh"}},
+"stats": {"type": "QuatStats", "inputs": {"motion": "sample.motion"}},
+"transfer": {"type": "StyleTransfer", "inputs": {"style": "stats.stats"}})",
+            R"(, "publish": {"inputs": {"motion": "transfer.motion"}, "outputs": {"motion": "transfer.motion"},
+"params": {"amount": "transfer.amount", "clip": "sample.file"}})"));
+    file("lib/broken.kg.json", nodes(R"("s": {"type": "QuatStats", "inputs": {"motion": "nobody.motion"}})"));
+    file("lib/newer.kg.json", R"({"format": "kinegraph", "schema": 99})");
+    file("lib/circle.kg.json", nodes(R"("c": {"type": "Graph", "params": {"file": "circle.kg.json"}})"));
+    file("lib/asks.kg.json", nodes(R"("a": {"type": "Load", "params": {"fps": "${speed}"}})"));
     options_.file = "g.kg.json";
     options_.folder = folder_.string();
   }
   void TearDown() override { fs::remove_all(folder_); }
+  // As the commands do it: the files of Graph nodes are opened before anything is judged.
+  ReadResult read_and_validate_with_graphs_inside(const std::string& text) const {
+    ReadResult result = read_and_validate(text, registry_, options_);
+    if (result.document.nodes.empty()) return result;
+    result = read_document(text, options_.file, registry_);
+    std::ofstream(folder_ / "g.kg.json") << text;
+    open_nested(result.document, registry_,
+                {.path = (folder_ / "g.kg.json").string(),
+                 .folder = folder_.string(),
+                 .read = [](const std::string& path) {
+                   if (!fs::is_regular_file(path)) throw Failure(error("missing-file", "it does not exist"));
+                   return toys::content(path);
+                 }});
+    for (Diagnostic& problem : validate(result.document, registry_, options_))
+      result.problems.push_back(std::move(problem));
+    return result;
+  }
   fs::path folder_;
   ValidateOptions options_;
   Registry registry_ = toys::registry();
@@ -260,7 +411,7 @@ std::string text_at(const std::string& text, Place place) {
 
 TEST_P(BrokenGraph, IsToldWhatIsWrongAndWhere) {
   const Mistake& mistake = GetParam();
-  const ReadResult result = read_and_validate(mistake.text, registry_, options_);
+  const ReadResult result = read_and_validate_with_graphs_inside(mistake.text);
   const auto found = std::find_if(result.problems.begin(), result.problems.end(),
                                   [&](const Diagnostic& problem) { return problem.code == mistake.code; });
   ASSERT_NE(found, result.problems.end()) << toys::all_text(result.problems);

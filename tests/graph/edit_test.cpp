@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <random>
 
@@ -206,14 +207,21 @@ TEST_F(Editing, PastedTextIsAGraphLikeAnyOther) {
 // Any edit at random that the document allows.
 class RandomEdits {
  public:
+  static constexpr int kinds = 26;
   RandomEdits(unsigned seed, const Registry& registry) : random_(seed), registry_(registry) {}
+  int made(int kind) const { return made_[kind]; }  // how many of a kind
 
   Edit next(const Document& document) {
     for (;;) {
-      try {
-        Edit edit = attempt(document);
-        if (!edit.empty()) return edit;
-      } catch (const Failure&) {
+      const int kind = static_cast<int>(below(kinds));
+      for (int tries = 0; tries < 100; ++tries) {
+        try {
+          Edit edit = attempt(document, kind);
+          if (edit.empty()) continue;
+          ++made_[kind];
+          return edit;
+        } catch (const Failure&) {
+        }
       }
     }
   }
@@ -233,33 +241,40 @@ class RandomEdits {
     return all.empty() ? "none" : all[below(all.size())];
   }
 
-  Edit attempt(const Document& document) {
+  Edit attempt(const Document& document, int kind) {
     if (document.nodes.empty()) return add_node(document, registry_, "first", "Load");
-    const std::string node = key_of(document.nodes);
-    const auto found = document.nodes.find(node);
-    const NodeType* type = found == document.nodes.end() ? nullptr : registry_.find(found->second.type);
-    const std::string port = found == document.nodes.end() ? "none" : key_of(found->second.inputs);
-    const std::string new_name = "n" + std::to_string(below(40));
-    switch (below(16)) {
+    const std::string node = key_of(document.nodes), other = key_of(document.nodes);
+    const Node& found = document.nodes.at(node);
+    const NodeType* type = registry_.find(found.type);
+    const std::string port = key_of(found.inputs), new_name = "n" + std::to_string(below(40));
+    const auto unit = [&](Unit::Kind of, const std::string& name, std::optional<Json> value,
+                          const std::string& key = {}) {
+      return set_unit(document, {of, name, key}, below(3) == 0 ? std::nullopt : std::move(value), "Unit");
+    };
+    // A graph that stays large enough for links to be cut and nodes to be put on them.
+    if ((kind == 1 || kind == 2) && document.nodes.size() < 12 && below(4)) return {};
+    const std::string short_name = "v" + std::to_string(below(3));
+    const Json spot = Json::Object{{"pos", Json::Array{below(500), below(500)}}};
+    switch (kind) {
       case 0:
         return add_node(document, registry_, new_name, one_of(registry_.names()));
       case 1:
-        return remove_nodes(document, registry_, {node}, below(2) == 0);
+        return remove_nodes(document, registry_, {node}, false);
       case 2:
-        return remove_nodes(document, registry_, {node, key_of(document.nodes)}, below(2) == 0);
+        return remove_nodes(document, registry_, {node, other}, true);
       case 3:
-      case 4:
         return rename_node(document, node, new_name);
+      case 4:
       case 5:
-      case 6:
         return set_param(document, registry_, node, type ? one_of(type->param_names()) : "none",
                          some_value());
+      case 6:
+        return reset_param(document, node, key_of(found.params));
       case 7:
       case 8:
       case 9: {
-        const std::string from = key_of(document.nodes);
-        const NodeType* giver = registry_.find(document.nodes.at(from).type);
-        return connect(document, registry_, {from, giver ? one_of(giver->output_names()) : "none", {}}, node,
+        const NodeType* giver = registry_.find(document.nodes.at(other).type);
+        return connect(document, registry_, {other, giver ? one_of(giver->output_names()) : "none", {}}, node,
                        type ? one_of(type->input_names()) : "none");
       }
       case 10:
@@ -269,12 +284,34 @@ class RandomEdits {
       case 12:
         return set_note(document, node, below(2) ? "a note" : "");
       case 13:
-        return below(2) ? take_out(document, registry_, node)
-                        : insert_on_link(document, registry_, key_of(document.nodes), node, port, below(2));
+        return take_out(document, registry_, node);
       case 14:
-        return paste(document, registry_, copied(document, registry_, {node, key_of(document.nodes)}), 3, 4);
+        return insert_on_link(document, registry_, other, node, port, below(2));
+      case 15:
+        return paste(document, registry_, copied(document, registry_, {node, other}), 3, 4);
+      case 16:
+        return unit(Unit::Kind::variable, short_name, Json(below(9)));
+      case 17:
+        return unit(Unit::Kind::publish_param, short_name, Json::Array{node + ".a", node + ".b"});
+      case 18:
+        return unit(Unit::Kind::publish_input, short_name, Json(node + ".motion"));
+      case 19:
+        return unit(Unit::Kind::publish_output, short_name, Json(node + ".motion"));
+      case 20:
+        return unit(Unit::Kind::node_extra, node, Json(below(4)), "x-k");
+      case 21:
+        return unit(below(2) ? Unit::Kind::publish_extra : Unit::Kind::extra, "x-" + short_name,
+                    Json(below(4)));
+      case 22:
+        return unit(Unit::Kind::ui_node, node, spot);
+      case 23:
+        return unit(Unit::Kind::ui_frame, short_name,
+                    Json::Object{{"title", short_name}, {"nodes", Json::Array{node, other}}});
+      case 24:
+        return unit(Unit::Kind::ui_note, short_name,
+                    Json::Object{{"text", short_name}, {"pos", Json::Array{1, 2}}});
       default:
-        return some_unit(document, node);
+        return unit(Unit::Kind::ui_extra, "x-" + short_name, Json(below(4)));
     }
   }
   Json some_value() {
@@ -293,52 +330,30 @@ class RandomEdits {
         return below(2) == 0;
     }
   }
-  Edit some_unit(const Document& document, const std::string& node) {
-    const Json pos = Json::Object{{"pos", Json::Array{below(500), below(500)}}};
-    switch (below(6)) {
-      case 0:
-        return set_unit(document, {Unit::Kind::ui_node, node, {}}, pos, "Move");
-      case 1:
-        return set_unit(document, {Unit::Kind::variable, "v" + std::to_string(below(3)), {}}, Json(below(9)),
-                        "Variable");
-      case 2:
-        return set_unit(document, {Unit::Kind::variable, key_of(document.variables), {}}, std::nullopt,
-                        "Variable");
-      case 3:
-        return set_unit(document, {Unit::Kind::publish_param, "p" + std::to_string(below(3)), {}},
-                        Json::Array{node + ".a", node + ".b"}, "Publish");
-      case 4:
-        return set_unit(document, {Unit::Kind::publish_output, key_of(document.publish.outputs), {}},
-                        std::nullopt, "P");
-      default:
-        return set_unit(document, {Unit::Kind::node_extra, node, "x-k"}, Json(below(4)), "Extra");
-    }
-  }
-
   std::mt19937 random_;
   const Registry& registry_;
+  std::array<int, kinds> made_{};
 };
 
-TEST_F(Editing, RandomSequencesUndoneGiveTheSameBytes) {
-  for (unsigned seed = 0; seed < 40; ++seed) {
-    Document document = toys::document_of(rich, registry_);
-    RandomEdits edits(seed, registry_);
-    History history;
-    std::vector<std::string> states{write_document(document, registry_)};
-    for (int i = 0; i < 40; ++i) {
-      Edit edit = edits.next(document);
-      apply(document, edit);
-      history.push(std::move(edit));
-      states.push_back(write_document(document, registry_));
-    }
-    for (std::size_t i = states.size() - 1; i-- > 0;) {
-      history.undo(document);
-      ASSERT_EQ(write_document(document, registry_), states[i]) << "seed " << seed << ", step " << i;
-    }
-    for (std::size_t i = 1; i < states.size(); ++i) {
-      history.redo(document);
-      ASSERT_EQ(write_document(document, registry_), states[i]) << "seed " << seed << ", step " << i;
-    }
+TEST_F(Editing, AThousandRandomEditsOfEveryKindUndoneGiveTheSameBytes) {
+  Document document = toys::document_of(rich, registry_);
+  RandomEdits edits(1, registry_);
+  History history;
+  std::vector<std::string> states{write_document(document, registry_)};
+  for (int i = 0; i < 1000; ++i) {
+    Edit edit = edits.next(document);
+    apply(document, edit);
+    history.push(std::move(edit));
+    states.push_back(write_document(document, registry_));
+  }
+  for (int kind = 0; kind < RandomEdits::kinds; ++kind) EXPECT_GE(edits.made(kind), 10) << kind;
+  for (std::size_t i = states.size() - 1; i-- > 0;) {
+    history.undo(document);
+    ASSERT_EQ(write_document(document, registry_), states[i]) << "step " << i;
+  }
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    history.redo(document);
+    ASSERT_EQ(write_document(document, registry_), states[i]) << "step " << i;
   }
 }
 
