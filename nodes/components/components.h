@@ -44,7 +44,7 @@ class Components final : public Value {
   bool converged = true;
   int iterations = 0;
   double reached = 0, tolerance = 0, negentropy = 0;
-  std::vector<bool> unique;  // false: another start with nearly the same negentropy gives another component
+  std::vector<bool> unique;  // false: another optimum with nearly the same negentropy lacks this component
 
   std::size_t count() const { return signals.rows; }
   std::size_t frames() const { return signals.columns; }

@@ -1,5 +1,7 @@
 #include "nodes/components/fast_ica.h"
 
+#include <hwy/aligned_allocator.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,26 +11,25 @@
 namespace kinegraph {
 namespace {
 
-int kind_of(Nonlinearity nonlinearity) {
-  return static_cast<int>(nonlinearity);
-}
-
 // E[z g(w'z)] (rows of the fixed-point update) and E[g'] for the rows of w.
 struct Moments {
   Rows zg;
   std::vector<double> slope;
 };
-Moments moments(const Rows& w, const Rows& z, Nonlinearity nonlinearity, Rows& y, Work& work) {
+Moments moments(const Rows& w, const Rows& z, Nonlinearity nonlinearity, Work& work) {
   const std::size_t m = w.rows, k = z.rows, columns = z.columns;
-  if (y.rows != m || y.columns != columns) y = Rows(m, columns);
+  const auto scratch = hwy::AllocateAligned<double>((m + k) * moment_slice);
+  std::vector<double> zg(m * k * kernel_lanes), slope(m * kernel_lanes);
+  // Parts of some milliseconds, after each of which the work may be stopped.
+  const std::size_t part = std::max<std::size_t>(1, 2'000'000 / (m * (k + 16)) / moment_slice) * moment_slice;
+  for (std::size_t start = 0; start < columns; start += part) {
+    add_moments(static_cast<int>(nonlinearity), w.data.data(), m, z.data.data() + start, columns, k,
+                std::min(part, columns - start), scratch.get(), zg.data(), slope.data());
+    work.check();
+  }
   Moments out{Rows(m, k), std::vector<double>(m)};
-  double beta = 0;
-  mix_rows(w.data.data(), m, k, z.data.data(), columns, y.data.data());
-  work.check();
-  for (std::size_t i = 0; i < m; ++i)
-    nonlinearity_of_row(kind_of(nonlinearity), y.row(i), columns, &out.slope[i], &beta);
-  work.check();
-  products_of_rows(y.data.data(), m, z.data.data(), k, columns, false, out.zg.data.data());
+  add_up_lanes(zg.data(), m * k, out.zg.data.data());
+  add_up_lanes(slope.data(), m, out.slope.data());
   const double scale = 1.0 / static_cast<double>(columns);
   for (double& x : out.zg.data) x *= scale;
   for (double& x : out.slope) x *= scale;
@@ -91,11 +92,10 @@ class Step {
 
 FastIcaRun symmetric_run(const Rows& z, const Rows& start, const FastIcaParams& params, Work& work) {
   FastIcaRun run;
-  Rows y;
   Rows w = nearest_orthonormal(start);
   Step step;
   for (int iteration = 1; iteration <= params.iterations && !run.converged; ++iteration) {
-    Rows next = nearest_orthonormal(stepped(w, moments(w, z, params.nonlinearity, y, work)));
+    Rows next = nearest_orthonormal(stepped(w, moments(w, z, params.nonlinearity, work)));
     point_alike(next, w);
     run.iterations = iteration;
     run.reached = change(next, w);
@@ -121,7 +121,7 @@ void make_new(Rows& w, const Rows& found, std::size_t count) {
 FastIcaRun deflation_run(const Rows& z, const Rows& start, const FastIcaParams& params, Work& work) {
   FastIcaRun run;
   run.converged = true;
-  Rows y, found(start.rows, start.columns);
+  Rows found(start.rows, start.columns);
   for (std::size_t i = 0; i < start.rows; ++i) {
     Rows w(1, start.columns);
     std::copy_n(start.row(i), start.columns, w.row(0));
@@ -129,7 +129,7 @@ FastIcaRun deflation_run(const Rows& z, const Rows& start, const FastIcaParams& 
     Step step;
     double reached = 1;
     for (int iteration = 1; iteration <= params.iterations && reached >= params.tolerance; ++iteration) {
-      Rows next = stepped(w, moments(w, z, params.nonlinearity, y, work));
+      Rows next = stepped(w, moments(w, z, params.nonlinearity, work));
       make_new(next, found, i);
       point_alike(next, w);
       reached = change(next, w);
@@ -177,147 +177,10 @@ double quasi_uniform(std::uint64_t n, std::size_t d) {
 
 }  // namespace
 
-namespace {
-
-Rows centred(const Rows& channels, const std::vector<double>& mean, Work& work) {
-  Rows out(channels.rows, channels.columns);
-  for (std::size_t i = 0; i < channels.rows; ++i) {
-    for (std::size_t t = 0; t < channels.columns; ++t) out(i, t) = channels(i, t) - mean[i];
-    work.check();
-  }
-  return out;
-}
-
-}  // namespace
-
-Principal principal_components(const Rows& channels, Work& work) {
-  const std::size_t d = channels.rows, columns = channels.columns;
-  Principal out;
-  out.mean.resize(d);
-  for (std::size_t i = 0; i < d; ++i) {
-    double sum = 0, rest = 0;
-    for (std::size_t t = 0; t < columns; ++t) sum += channels(i, t);
-    const double mean = sum / static_cast<double>(columns);
-    for (std::size_t t = 0; t < columns; ++t)
-      rest += channels(i, t) - mean;  // the rounding of the first pass
-    out.mean[i] = mean + rest / static_cast<double>(columns);
-  }
-  out.centred = centred(channels, out.mean, work);
-  const Rows& x = out.centred;
-  out.axes = identity(d);
-  out.variance.resize(d);
-  // A covariance knows its small variances only to 1e-16 of the largest. So the axes under 1e-8 of the first
-  // are decomposed once more, in the space of these axes alone, where they are the large ones; and so on.
-  for (std::size_t first = 0; first < d;) {
-    const std::size_t m = d - first;
-    Rows axes(m, d);
-    std::copy_n(out.axes.row(first), m * d, axes.data.data());
-    Rows projected, covariance(m, m);
-    if (first > 0) {
-      projected = Rows(m, columns);
-      mix_rows(axes.data.data(), m, d, x.data.data(), columns, projected.data.data());
-      work.check();
-    }
-    const double* rows = first > 0 ? projected.data.data() : x.data.data();
-    products_of_rows(rows, m, rows, m, columns, true, covariance.data.data());
-    work.check();
-    const Eigenpairs pairs = symmetric_eigen(covariance);
-    const Rows turned = product(pairs.vectors, axes);
-    std::copy_n(turned.data.data(), m * d, out.axes.row(first));
-    for (std::size_t i = 0; i < m; ++i)
-      out.variance[first + i] = std::max(0.0, pairs.values[i]) / static_cast<double>(columns);
-    std::size_t next = first + 1;
-    while (next < d && out.variance[next] > 1e-8 * out.variance[first]) ++next;
-    if (next < d && out.variance[next] <= 1e-22 * out.variance[0]) break;  // the rest is rounding
-    first = next;
-  }
-  while (out.rank < d && out.variance[out.rank] > 1e-20 * out.variance[0]) ++out.rank;
-  return out;
-}
-
-Whitened whiten(const Principal& principal, std::size_t k, Work& work) {
-  const Rows& x = principal.centred;
-  const std::size_t d = x.rows, columns = x.columns;
-  Whitened out{Rows(k, columns), Rows(d, k), Rows(k, d)};
-  for (std::size_t i = 0; i < k; ++i) {
-    const double sigma = std::sqrt(principal.variance[i]);
-    for (std::size_t j = 0; j < d; ++j) {
-      out.p(j, i) = principal.axes(i, j) * sigma;
-      out.p_inverse(i, j) = principal.axes(i, j) / sigma;
-    }
-  }
-  mix_rows(out.p_inverse.data.data(), k, d, x.data.data(), columns, out.z.data.data());
-  work.check();
-  return out;
-}
-
 FastIcaRun fast_ica(const Rows& z, const Rows& start, const FastIcaParams& params, Work& work) {
   FastIcaRun run =
       params.symmetric ? symmetric_run(z, start, params, work) : deflation_run(z, start, params, work);
   run.negentropy = negentropy(rotated(run.w, z));
-  return run;
-}
-
-namespace {
-
-constexpr double gaussian_log_cosh = 0.3745672;  // E[log cosh ν] of a standard normal ν
-
-// The angle by which turning a and b into each other gives the largest negentropy, of seven and none; by
-// every `stride`-th sample.
-double best_turn(const double* a, const double* b, std::size_t count, std::size_t stride) {
-  constexpr double gaussian = 1.3545308064;  // E[√(1 + ν²)] of a standard normal ν
-  double best = 0, most = 0;
-  for (int step = 0; step < 8; ++step) {
-    const double angle = step * pi / 16;
-    const SinCos turn = sin_cos(angle);
-    double first = 0, second = 0;
-    std::size_t n = 0;
-    for (std::size_t t = 0; t < count; t += stride, ++n) {
-      const double x = turn.cos * a[t] + turn.sin * b[t], y = turn.cos * b[t] - turn.sin * a[t];
-      first += std::sqrt(1 + x * x);
-      second += std::sqrt(1 + y * y);
-    }
-    first = first / static_cast<double>(n) - gaussian;
-    second = second / static_cast<double>(n) - gaussian;
-    const double worth = first * first + second * second;
-    if (step == 0 || worth > 1.02 * most) {
-      most = worth;
-      best = angle;
-    }
-  }
-  return best;
-}
-
-}  // namespace
-
-constexpr std::size_t most_pairwise = 20;  // components; beyond, pairs are too many to try
-
-FastIcaRun leave_side_optimum(const Rows& z, FastIcaRun run, const FastIcaParams& params, Work& work) {
-  const std::size_t k = run.w.rows, stride = std::max<std::size_t>(1, z.columns / 500);
-  for (int round = 0; round < 4 && k <= most_pairwise; ++round) {
-    const Rows u = rotated(run.w, z);
-    Rows start = run.w;
-    bool turned = false;
-    std::vector<bool> taken(k, false);
-    for (std::size_t i = 0; i < k; ++i) {
-      for (std::size_t j = i + 1; j < k && !taken[i]; ++j) {
-        if (taken[j]) continue;
-        work.check();
-        const double angle = best_turn(u.row(i), u.row(j), z.columns, stride);
-        if (angle == 0) continue;
-        const SinCos turn = sin_cos(angle);
-        for (std::size_t c = 0; c < k; ++c) {
-          start(i, c) = turn.cos * run.w(i, c) + turn.sin * run.w(j, c);
-          start(j, c) = turn.cos * run.w(j, c) - turn.sin * run.w(i, c);
-        }
-        taken[i] = taken[j] = turned = true;
-      }
-    }
-    if (!turned) break;
-    FastIcaRun other = fast_ica(z, start, params, work);
-    if (other.negentropy <= run.negentropy || (run.converged && !other.converged)) break;
-    run = std::move(other);
-  }
   return run;
 }
 
@@ -337,16 +200,19 @@ Rows starting_rotation(std::size_t k, int n, std::uint64_t seed) {
 
 Rows rotated(const Rows& w, const Rows& z) {
   Rows u(w.rows, z.columns);
-  mix_rows(w.data.data(), w.rows, z.rows, z.data.data(), z.columns, u.data.data());
+  mix_rows(w.data.data(), w.rows, z.rows, z.data.data(), z.columns, z.columns, u.data.data(), u.columns);
   return u;
+}
+
+double negentropy_of_row(const double* u, std::size_t count) {
+  constexpr double gaussian = 0.3745672;  // E[log cosh ν] of a standard normal ν
+  const double less = sum_of_log_cosh(u, count) / static_cast<double>(count) - gaussian;
+  return less * less;
 }
 
 double negentropy(const Rows& u) {
   double sum = 0;
-  for (std::size_t i = 0; i < u.rows; ++i) {
-    const double mean = sum_of_log_cosh(u.row(i), u.columns) / static_cast<double>(u.columns);
-    sum += (mean - gaussian_log_cosh) * (mean - gaussian_log_cosh);
-  }
+  for (std::size_t i = 0; i < u.rows; ++i) sum += negentropy_of_row(u.row(i), u.columns);
   return sum;
 }
 

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "nodes/components/ica_kernels.h"
+#include "nodes/components/optima.h"
+#include "nodes/components/principal.h"
 
 namespace kinegraph {
 namespace {
@@ -30,46 +31,38 @@ std::size_t count_for(const Principal& principal, double variance) {
   return std::max<std::size_t>(k, 1);
 }
 
-struct Starts {
-  FastIcaRun best;
-  std::vector<FastIcaRun> all;
+// The best of the starts, and which of its components the others have too.
+struct Best {
+  FastIcaRun run;
+  std::vector<bool> unique;
 };
-Starts run_starts(const Rows& z, const IcaParams& params, Work& work) {
+Best best_of_starts(const Rows& z, const IcaParams& params, Work& work) {
   const auto count = static_cast<std::size_t>(std::max(params.starts, 1));
-  Starts out;
-  out.all.resize(count);
+  std::vector<FastIcaRun> all(count);
   work.parallel(count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      out.all[n] =
+      all[n] =
           fast_ica(z, starting_rotation(z.rows, static_cast<int>(n), params.seed), params.fast_ica, work);
   });
   // The largest negentropy; a run that did not converge counts 1 % less; then the first.
-  const auto worth = [&](std::size_t n) { return out.all[n].negentropy * (out.all[n].converged ? 1 : 0.99); };
-  std::size_t best = 0;
-  for (std::size_t n = 1; n < count; ++n)
-    if (worth(n) > worth(best)) best = n;
-  out.best = leave_side_optimum(z, out.all[best], params.fast_ica, work);
-  return out;
-}
-
-// A component is unique when every converged run within 2 % of the best negentropy has it too. On whitened
-// axes the correlation of two signals is the product of their rows.
-std::vector<bool> uniqueness(const Starts& starts) {
-  const Rows& w = starts.best.w;
-  std::vector<bool> unique(w.rows, true);
-  for (const FastIcaRun& run : starts.all) {
-    if (!run.converged || run.negentropy < 0.98 * starts.best.negentropy) continue;
-    for (std::size_t i = 0; i < w.rows; ++i) {
-      double nearest = 0;
-      for (std::size_t j = 0; j < w.rows; ++j) {
-        double dot = 0;
-        for (std::size_t c = 0; c < w.columns; ++c) dot += w(i, c) * run.w(j, c);
-        nearest = std::max(nearest, std::fabs(dot));
-      }
-      if (nearest < 0.95) unique[i] = false;
-    }
+  const auto worth = [](const FastIcaRun& run) { return run.negentropy * (run.converged ? 1 : 0.99); };
+  const auto best_of = [&](const std::vector<FastIcaRun>& runs) {
+    return *std::max_element(runs.begin(), runs.end(),
+                             [&](const FastIcaRun& a, const FastIcaRun& b) { return worth(a) < worth(b); });
+  };
+  Best best{leave_side_optimum(z, best_of(all), params.fast_ica, work), std::vector<bool>(z.rows, true)};
+  if (count == 1) return best;
+  // What lies around the best is looked at too; a better one found there is the best from then on.
+  for (int round = 0; round < 3; ++round) {
+    auto around = runs_around(z, best.run, params.fast_ica, work);
+    if (around.empty()) break;
+    all.insert(all.end(), around.begin(), around.end());
+    const FastIcaRun other = best_of(around);
+    if (worth(other) < 1.01 * worth(best.run)) break;
+    best.run = leave_side_optimum(z, other, params.fast_ica, work);
   }
-  return unique;
+  best.unique = unique_components(best.run, all);
+  return best;
 }
 
 // Rows of `rotation` in the order and with the signs that users see.
@@ -159,7 +152,7 @@ Decomposition decompose(const Rows& channels, const IcaParams& params, Work& wor
   const Principal principal = principal_components(channels, work);
   // What stays of an unchanging channel of size s after its mean is taken out is rounding, some 1e-16 s.
   double largest = 0;
-  for (double x : channels.data) largest = std::max(largest, std::fabs(x));
+  for (double x : principal.mean) largest = std::max(largest, std::fabs(x));
   if (principal.rank == 0 || principal.variance[0] <= 1e-28 * largest * largest)
     throw Failure(error("no-variance", "no channel changes over time")
                       .hinting("give a clip that moves, or other `joints`"));
@@ -172,19 +165,19 @@ Decomposition decompose(const Rows& channels, const IcaParams& params, Work& wor
             .at_param("components")
             .hinting(
                 fmt::format("ask for at most {}, or 0 for as many as `variance` needs", principal.rank)));
-  const Whitened white = whiten(principal, k, work);
+  const Whitened white = whiten(channels, principal, k, work);
 
   Decomposition out;
   out.mean = principal.mean;
   out.unique.assign(k, true);
   Rows rotation = identity(k);
   if (params.rotate && k > 1) {
-    const Starts starts = run_starts(white.z, params, work);
-    rotation = starts.best.w;
-    out.converged = starts.best.converged;
-    out.iterations = starts.best.iterations;
-    out.reached = starts.best.reached;
-    out.unique = uniqueness(starts);
+    Best best = best_of_starts(white.z, params, work);
+    rotation = std::move(best.run.w);
+    out.converged = best.run.converged;
+    out.iterations = best.run.iterations;
+    out.reached = best.run.reached;
+    out.unique = std::move(best.unique);
   }
   rotation = canonical(rotation, white, out.unique);
   out.signals = rotated(rotation, white.z);
@@ -204,9 +197,10 @@ Decomposition decompose(const Rows& channels, const IcaParams& params, Work& wor
                             out.reached, out.iterations, params.fast_ica.tolerance))
             .hinting("raise `iterations` or `tolerance`, or ask for fewer `components`"));
   if (const std::string others = list_of(out.unique); !others.empty())
-    work.report(warning("not-unique", "the components " + others +
-                                          " are not unique: other starts find others that are as independent")
-                    .hinting("look at several guesses with `seed`, or ask for fewer `components`"));
+    work.report(
+        warning("not-unique", "the components " + others +
+                                  " are not unique: the optimum is flat, others are nearly as independent")
+            .hinting("look at several guesses with `seed`, or ask for fewer `components`"));
   return out;
 }
 

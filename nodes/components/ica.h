@@ -32,8 +32,8 @@ struct Decomposition {
   std::vector<bool> unique;
 };
 // Errors: "too-few-frames", "no-variance", "too-many-components" (naming the rank). Warnings:
-// "not-converged", "not-unique" (naming the components that other starts of nearly the same negentropy find
-// otherwise). Order: by share of variance. Sign: positive skewness where |skewness| > 0.3, else the largest
+// "not-converged", "not-unique" (naming the components that other optima of at least 0.9 of the negentropy
+// lack, optima.h). Order: by share of variance. Sign: positive skewness where |skewness| > 0.3, else the largest
 // |entry| of the mixing column positive.
 Decomposition decompose(const Rows& channels, const IcaParams& params, Work& work);
 

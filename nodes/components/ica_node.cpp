@@ -80,6 +80,7 @@ NodeType ica_node() {
   NodeType type;
   type.name = "ICA";
   type.category = "components";
+  type.code_version = 2;
   type.help =
       "Splits one or several clips, joined, into independent components: signals over time, each moving the "
       "whole body in its own way.";

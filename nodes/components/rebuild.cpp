@@ -25,7 +25,7 @@ Rows channels_from_signals(const Components& components, const Rows& signals,
   Rows out(components.mixing.rows, signals.columns);
   if (!entries.empty())
     mix_rows(chosen_mixing.data.data(), out.rows, entries.size(), chosen.data.data(), out.columns,
-             out.data.data());
+             out.columns, out.data.data(), out.columns);
   for (std::size_t d = 0; d < out.rows; ++d)
     for (std::size_t t = 0; t < out.columns; ++t) out(d, t) += components.mean[d];
   return out;
@@ -43,7 +43,7 @@ Rows signals_from_channels(const Components& components, const Rows& channels) {
     for (std::size_t t = 0; t < centred.columns; ++t) centred(d, t) -= components.mean[d];
   Rows out(components.unmixing.rows, channels.columns);
   mix_rows(components.unmixing.data.data(), out.rows, centred.rows, centred.data.data(), out.columns,
-           out.data.data());
+           out.columns, out.data.data(), out.columns);
   return out;
 }
 

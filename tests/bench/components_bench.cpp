@@ -7,6 +7,7 @@
 
 #include "nodes/components/component_edit.h"
 #include "nodes/components/ica.h"
+#include "nodes/components/principal.h"
 #include "nodes/components/rebuild.h"
 #include "tests/nodes/time/walks.h"
 
@@ -45,7 +46,7 @@ BENCHMARK(decompose_channels)
 void principal_and_whitening(benchmark::State& state) {
   const Rows x = mixed(12, 10000);
   Alone work;
-  for (auto _ : state) benchmark::DoNotOptimize(whiten(principal_components(x, work), 12, work));
+  for (auto _ : state) benchmark::DoNotOptimize(whiten(x, principal_components(x, work), 12, work));
 }
 BENCHMARK(principal_and_whitening)->Unit(benchmark::kMillisecond);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "nodes/components/principal.h"
 #include "nodes/motion/kinematics.h"
 #include "tests/nodes/components/clips.h"
 #include "tests/nodes/motion/sample_motion.h"
@@ -291,30 +292,6 @@ TEST(IcaOfRealClips, AgreesOnTheRankKErrorAndReturns) {
     const Rows x = channels_of_all(components, work), again = rebuilt_channels(components);
     EXPECT_LT(largest_difference(x, again), 1e-9 * largest_range(x))
         << name_of(representation) << " rank " << rank;
-  }
-}
-
-// Single runs fall into one of two optima here, most of them into the worse.
-TEST(IcaOfRealClips, FindsTheSameComponentsFromEverySeed) {
-  KINEGRAPH_NEEDS_MOCAP();
-  Alone work;
-  const Clips clips = {real_clip("cmu/asfamc/16_31.amc"), real_clip("cmu/asfamc/17_03.amc")};
-  const ChannelSpace space =
-      space_of_motions(Representation::points, clips, std::vector<bool>(clips[0]->joints(), true), true, {}, work);
-  IcaParams params;
-  params.components = 3;
-  params.starts = 100;
-  const Components best = components_of_motions(space, clips, params, work);
-  params.starts = 8;
-  for (params.seed = 0; params.seed < 20; ++params.seed) {
-    const Components found = components_of_motions(space, clips, params, work);
-    EXPECT_GE(found.negentropy, 0.98 * best.negentropy) << "seed " << params.seed;
-    for (std::size_t i = 0; i < 3; ++i) {
-      double correlation = 0;
-      for (std::size_t t = 0; t < found.frames(); ++t)
-        correlation += found.signals(i, t) * best.signals(i, t) / static_cast<double>(found.frames());
-      EXPECT_GT(correlation, 0.99) << "seed " << params.seed << ", u" << i + 1;
-    }
   }
 }
 
