@@ -88,7 +88,7 @@ Motion log_on_positions(const Motion& motion, const std::vector<double>& weights
     work.check();
     sharpen(moved.position(j), weights, strength);
   }
-  aim_links(motion.skeleton(), links_below(motion), world, most_twist_at(motion.fps()), moved, work);
+  aim_links(motion.skeleton(), links_below(motion), world, turn_limits(motion.fps()), moved, work);
   return motion_from_world(motion.shared_skeleton(), motion.shared_source(), motion.fps(),
                            motion.translating(), moved, work);
 }

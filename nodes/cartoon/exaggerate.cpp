@@ -8,15 +8,18 @@
 #include <limits>
 #include <utility>
 
+#include "nodes/cartoon/link_flips.h"
 #include "nodes/cartoon/link_turns.h"
 #include "nodes/cartoon/world_to_local.h"
+#include "nodes/motion/elementary.h"
 #include "nodes/time/gaussian.h"
 
 namespace kinegraph {
 namespace {
 
 constexpr double longest_told = 3, shortest_told = 1.0 / 3;  // |w| / |v| beyond which a link is warned about
-constexpr double least_sigma = 1e-3;                         // of a frame: below it the average is the joint
+constexpr double most_turn_a_second = 30 * 120 / degrees_per_radian;  // of a link, if the input's turns less
+constexpr double least_sigma = 1e-3;  // of a frame: below it the average is the joint
 
 // How far each joint is ahead of its average, j − a; the exaggerated joint is j + (ω − 1)(j − a).
 WorldMotion ahead_of_average(const Motion& motion, const WorldMotion& world, double sigma, bool keep_root,
@@ -124,18 +127,26 @@ void tell(const Motion& motion, const ExaggerateParams& params, const Exaggerate
                     .hinting(params.correction.max_link > 0
                                  ? "raise max_link, error or iterations, or lower omega"
                                  : "raise error or iterations, or lower omega"));
-  if (stretch.largest > longest_told)
-    work.report(warning("stretched-link",
-                        fmt::format("the link to the joint has {:.2f} times its length", stretch.largest))
-                    .at_joint(name(stretch.largest_joint))
-                    .at_frame(static_cast<std::int64_t>(stretch.largest_frame))
-                    .hinting("set max_link, or lower omega or error"));
-  if (stretch.smallest < shortest_told)
-    work.report(warning("stretched-link",
-                        fmt::format("the link to the joint has only {:.2f} of its length", stretch.smallest))
-                    .at_joint(name(stretch.smallest_joint))
-                    .at_frame(static_cast<std::int64_t>(stretch.smallest_frame))
-                    .hinting("lower omega or error"));
+}
+
+// A warning for each link that is too long or too short anywhere, at its worst frame.
+void tell_of_stretched(const Skeleton& skeleton, const std::vector<double>& lengths, const WorldMotion& moved,
+                       Work& work) {
+  for (int j = 1; j < skeleton.size(); ++j) {
+    const LinkStretch stretch = link_stretch(skeleton, lengths, moved, j);
+    const auto tell_of = [&](std::string text, std::size_t frame, const char* hint) {
+      work.report(warning("stretched-link", std::move(text))
+                      .at_joint(skeleton.joints[j].name)
+                      .at_frame(static_cast<std::int64_t>(frame))
+                      .hinting(hint));
+    };
+    if (stretch.largest > longest_told)
+      tell_of(fmt::format("the link to the joint has {:.2f} times its length", stretch.largest),
+              stretch.largest_frame, "set max_link, or lower omega or error");
+    if (stretch.smallest < shortest_told)
+      tell_of(fmt::format("the link to the joint has only {:.2f} of its length", stretch.smallest),
+              stretch.smallest_frame, "lower omega or error");
+  }
 }
 
 }  // namespace
@@ -215,13 +226,16 @@ ExaggerateResult exaggerate(const Motion& motion, const ExaggerateParams& params
     LinkCorrectionParams correction = params.correction;
     if (wished) correction.error = std::numeric_limits<double>::infinity();
     result.correction = correct_links(skeleton, on, lengths, correction, moved, work);
+    const double times_input = 2 * std::max(result.omega, 1.0);
+    hold_link_flips(skeleton, lengths, world, {most_turn_a_second / motion.fps(), times_input}, moved, work);
   }
   work.progress(0.8);
   result.stretch = link_stretch(skeleton, lengths, moved);
-  aim_links(skeleton, links_below(motion), world, most_twist_at(motion.fps()), moved, work);
+  aim_links(skeleton, links_below(motion), world, turn_limits(motion.fps()), moved, work);
   result.motion = motion_from_world(motion.shared_skeleton(), motion.shared_source(), motion.fps(),
                                     motion.translating(), moved, work);
   tell(motion, params, result, corrected, work);
+  tell_of_stretched(skeleton, lengths, moved, work);
   return result;
 }
 

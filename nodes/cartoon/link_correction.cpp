@@ -7,8 +7,8 @@
 namespace kinegraph {
 namespace {
 
-constexpr std::size_t block = 256;          // frames at once: small enough for the cache
-constexpr double least_delta = 1.0 / 1024;  // below it nothing moves any more
+constexpr std::size_t block = 256;       // frames at once: small enough for the cache
+constexpr double least_part = 1.0 / 16;  // of delta: with less nothing arrives within the iterations
 
 // One iteration: where the joints of `from` go, and the error of `from` itself.
 struct Step {
@@ -88,10 +88,11 @@ std::vector<double> link_lengths(const Skeleton& skeleton, const std::vector<boo
 }
 
 LinkStretch link_stretch(const Skeleton& skeleton, const std::vector<double>& lengths,
-                         const WorldMotion& moved) {
+                         const WorldMotion& moved, int only) {
   LinkStretch stretch;
   const std::size_t frames = moved.frames();
   for (int j = 1; j < skeleton.size(); ++j) {
+    if (only >= 0 && j != only) continue;
     const auto child = moved.position(j), parent = moved.position(skeleton.joints[j].parent);
     const double* v = lengths.data() + static_cast<std::size_t>(j) * frames;
     for (std::size_t t = 0; t < frames; ++t) {
@@ -122,31 +123,33 @@ LinkCorrectionResult correct_links(const Skeleton& skeleton, const std::vector<b
     return result;
   }
   WorldMotion next = moved, best = moved;
-  const auto once = [&](const WorldMotion& from, WorldMotion& to) {
-    return moved_once(skeleton, on_parent, lengths, result.delta, from, to, work);
-  };
+  double delta = params.delta;
+  const auto once = [&] { return moved_once(skeleton, on_parent, lengths, delta, moved, next, work); };
   const auto is_met = [&](const Step& step) {
     return step.error <= params.error && (params.max_link <= 0 || step.largest <= params.max_link);
   };
-  // `moved` has been looked at and `next` is where it goes from there; `best` trails one behind.
-  Step step = once(moved, next);
+  // `moved` has been looked at, `next` is where it goes from there. Where a joint with many children moves
+  // its own link gains less than theirs lose, and the error rises until the move has passed down to the tips:
+  // so it goes on from what it has come to, by smaller steps, and `best` is what it falls back on.
+  Step step = once();
   result.error = result.error_before = step.error;
   result.met = is_met(step);
+  double before = step.error;
+  bool is_best = true;
   while (!result.met && result.iterations < params.iterations) {
     ++result.iterations;
-    std::swap(best, moved);  // best: the last good positions; next: one step further
+    if (is_best) std::swap(best, moved);
     std::swap(moved, next);
-    step = once(moved, next);
-    if (step.error <= result.error) {
-      result.error = step.error;
-      result.met = is_met(step);
-      continue;
-    }
-    std::swap(moved, best);
-    result.delta /= 2;
-    if (result.delta < least_delta) break;
-    once(moved, next);
+    step = once();
+    result.met = is_met(step);
+    is_best = result.met || step.error <= result.error;
+    if (is_best) result.error = step.error;
+    delta = step.error > before ? std::max(0.5 * delta, least_part * params.delta)
+                                : std::min(2 * delta, params.delta);
+    result.delta = std::min(result.delta, delta);
+    before = step.error;
   }
+  if (!is_best) std::swap(best, moved);
   return result;
 }
 

@@ -19,8 +19,9 @@ struct LinkStretch {
   double worst() const { return largest * smallest > 1 ? largest : 1 / smallest; }
 };
 // `lengths`: |v| of each joint's link at each frame, joint * frames + frame; 0 = no link.
+// `only`: of that joint's link alone, where not negative.
 LinkStretch link_stretch(const Skeleton& skeleton, const std::vector<double>& lengths,
-                         const WorldMotion& moved);
+                         const WorldMotion& moved, int only = -1);
 
 // |v| of every link: joint * frames + frame; 0 for the root and for joints that stand on their parent.
 std::vector<double> link_lengths(const Skeleton& skeleton, const std::vector<bool>& on_parent,
@@ -36,7 +37,7 @@ struct LinkCorrectionResult {
   int iterations = 0;
   double error = 0;  // of what is left
   double error_before = 0;
-  double delta = 0;  // after halvings
+  double delta = 0;  // the smallest that was used
   bool met = false;  // both goals
 };
 
@@ -44,8 +45,8 @@ struct LinkCorrectionResult {
 //   δ (|w| − |v|) w / |w|,  w = e_p − e_c,
 // all from the same positions; descendants don't ride along; squashed links grow; at |w| = 0 nothing moves.
 // The printed Fig. 4 has |v| alone for the length of the step, which never shrinks the error; meant is the
-// violation. The best positions so far are kept; an iteration that raises the error starts again from them
-// with half of δ.
+// violation. An iteration that raises the error halves δ (to a sixteenth at the least), one that lowers it
+// doubles it again up to `delta`. What comes out is the best of all, or the first that meets both goals.
 LinkCorrectionResult correct_links(const Skeleton& skeleton, const std::vector<bool>& on_parent,
                                    const std::vector<double>& lengths, const LinkCorrectionParams& params,
                                    WorldMotion& moved, Work& work);

@@ -12,8 +12,6 @@ namespace {
 
 constexpr double hold_to_identity = 0.005;  // of the links' squared length, about each axis
 constexpr double zero_link = 1e-6;          // of the height
-// 5° a frame at 120 frames a second.
-constexpr double most_twist_a_second = 5 * 120 / degrees_per_radian;
 
 using Matrix4 = std::array<std::array<double, 4>, 4>;
 
@@ -87,85 +85,90 @@ std::vector<std::vector<int>> links_below(const Motion& motion) {
   return ends;
 }
 
-void limit_turns(ConstQuatTrack old, double most_turn, QuatTrack out) {
-  const std::size_t frames = out.w.size();
-  // Of unit quaternions half an angle apart |a·b| is its cosine.
-  const double least_cosine = cosine(0.5 * most_turn);
+Vec3 rest_link(const RestPose& rest, int of, int from, int to) {
+  return normalized(rotate(inverse(rest.orientations[of]), rest.positions[to] - rest.positions[from]));
+}
+
+void aim_branch(std::span<const Vec3> axes, ConstVec3Track old_at, std::span<const ConstVec3Track> old_ends,
+                ConstVec3Track at, std::span<const ConstVec3Track> ends, ConstQuatTrack old,
+                const TurnLimits& limits, QuatTrack out) {
+  const std::size_t frames = out.w.size(), count = ends.size();
+  std::vector<Vec3> a(count), b(count);
   std::vector<Quat> turned(frames);
-  bool jumps = false;
   for (std::size_t t = 0; t < frames; ++t) {
-    turned[t] = inverse(old[t]) * out[t];
-    jumps = jumps || (t > 0 && std::fabs(dot(turned[t], turned[t - 1])) < least_cosine);
+    for (std::size_t i = 0; i < count; ++i) {
+      a[i] = old_ends[i][t] - old_at[t];
+      b[i] = ends[i][t] - at[t];
+    }
+    turned[t] = best_turn(a, b);
+    out.set(t, normalized(turned[t] * old[t]));
+  }
+  // Where the turn between input and result stays, the result twists as the input does.
+  const double quick = cosine(0.5 * limits.twist_departure), quick_out = cosine(0.5 * limits.twist);
+  std::vector<double> most(frames, limits.twist_departure);
+  bool jumps = false;
+  for (std::size_t t = 1; t < frames; ++t) {
+    const double apart = std::fabs(dot(turned[t - 1], turned[t]));
+    if (apart < quick) jumps = true;
+    if (std::fabs(dot(out[t - 1], out[t])) >= quick_out) continue;
+    double input = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      input = std::max(input, std::fabs(HalfTwist(inverse(old[t - 1]) * old[t], axes[i]).angle()));
+    }
+    most[t] = std::clamp(limits.twist - input, 0.0, limits.twist_departure);
+    jumps = jumps || apart < cosine(0.5 * most[t]);
   }
   if (jumps) {
-    const auto follow = [&](Quat from, Quat to) {
-      const double angle = turn(from, to);
-      return angle > most_turn ? slerp(most_turn / angle, from, to) : to;
-    };
-    std::vector<Quat> forward = turned, backward = turned;
-    for (std::size_t t = 1; t < frames; ++t) forward[t] = follow(forward[t - 1], turned[t]);
-    for (std::size_t t = frames - 1; t-- > 0;) backward[t] = follow(backward[t + 1], turned[t]);
-    for (std::size_t t = 0; t < frames; ++t)
-      out.set(t, normalized(old[t] * slerp(0.5, forward[t], backward[t])));
+    turned = with_turns_within(turned, most);
+    for (std::size_t t = 0; t < frames; ++t) out.set(t, normalized(turned[t] * old[t]));
   }
   make_continuous(out.x, out.y, out.z, out.w);
 }
 
-double most_twist_at(double fps) {
-  return most_twist_a_second / fps;
-}
-
-void aim_link(ConstVec3Track old_from, ConstVec3Track old_to, ConstVec3Track from, ConstVec3Track to,
-              ConstQuatTrack old, double most_twist, QuatTrack out) {
+void aim_link(Vec3 axis, ConstVec3Track old_from, ConstVec3Track old_to, ConstVec3Track from,
+              ConstVec3Track to, ConstQuatTrack old, const TurnLimits& limits, QuatTrack out) {
   const std::size_t frames = out.w.size();
-  for (std::size_t t = 0; t < frames; ++t)
-    out.set(t, normalized(smallest_turn(old_to[t] - old_from[t], to[t] - from[t]) * old[t]));
+  std::vector<Quat> turned(frames);
+  const double quick_turn = cosine(0.5 * limits.turn_departure);
+  bool flips = false;
+  for (std::size_t t = 0; t < frames; ++t) {
+    turned[t] = smallest_turn(old_to[t] - old_from[t], to[t] - from[t]);
+    flips = flips || (t > 0 && std::fabs(dot(turned[t - 1], turned[t])) < quick_turn);
+  }
+  if (flips) {
+    std::vector<double> most(frames);
+    for (std::size_t t = 1; t < frames; ++t) most[t] = limits.turn_departure + turn(old[t - 1], old[t]);
+    turned = with_turns_within(turned, most);
+  }
+  for (std::size_t t = 0; t < frames; ++t) out.set(t, normalized(turned[t] * old[t]));
   make_continuous(out.x, out.y, out.z, out.w);
-  // The twist of both from frame to frame, as half-angle cosine and sine, about the link in the joint's
-  // frame.
-  const double tangent = sine(0.5 * most_twist) / cosine(0.5 * most_twist);
-  const auto axis = [&](std::size_t t) {
-    return normalized(rotate(inverse(old[t]), old_to[t] - old_from[t]));
-  };
-  const auto excess = [&](std::size_t t, double& s, double& c) {
-    const Vec3 a = axis(t);
-    const Quat step = inverse(out[t - 1]) * out[t], input = inverse(old[t - 1]) * old[t];
-    const double s1 = dot(a, Vec3{step.x, step.y, step.z}), s2 = dot(a, Vec3{input.x, input.y, input.z});
-    s = s1 * input.w - step.w * s2;
-    c = step.w * input.w + s1 * s2;
-    if (c < 0) {
-      c = -c;
-      s = -s;
-    }
-  };
+  const HalfTwist most(limits.twist), departure(limits.twist_departure);
+  // Most frames need no closer look: the rotation between input and result hardly changes.
+  const double quick = cosine(0.25 * limits.twist_departure), quick_out = cosine(0.5 * limits.twist);
   bool spins = false;
-  double s, c;
   for (std::size_t t = 1; t < frames && !spins; ++t) {
-    excess(t, s, c);
-    spins = std::fabs(s) > tangent * c;
+    if (dot(turned[t - 1], turned[t]) >= quick && dot(out[t - 1], out[t]) >= quick_out) continue;
+    const HalfTwist is(inverse(out[t - 1]) * out[t], axis), input(inverse(old[t - 1]) * old[t], axis);
+    spins = is.beyond(input).exceeds(departure) || (is.exceeds(most) && is.exceeds(input));
   }
   if (!spins) return;
-  std::vector<double> twist(frames), low(frames), high(frames);
+  std::vector<double> twist(frames), fewest(frames), largest(frames);
   for (std::size_t t = 1; t < frames; ++t) {
-    excess(t, s, c);
-    twist[t] = twist[t - 1] + 2 * arc_tangent2(s, c);
+    const HalfTwist is(inverse(out[t - 1]) * out[t], axis), input(inverse(old[t - 1]) * old[t], axis);
+    const double own = input.angle(), bound = std::max(limits.twist, std::fabs(own));
+    twist[t] = twist[t - 1] + own + is.beyond(input).angle();
+    fewest[t] = std::max(own - limits.twist_departure, -bound);
+    largest[t] = std::min(own + limits.twist_departure, bound);
   }
-  low = high = twist;
-  for (std::size_t t = 1; t < frames; ++t) {
-    low[t] = std::max(low[t], low[t - 1] - most_twist);
-    high[t] = std::min(high[t], high[t - 1] + most_twist);
-  }
-  for (std::size_t t = frames - 1; t-- > 0;) {
-    low[t] = std::max(low[t], low[t + 1] - most_twist);
-    high[t] = std::min(high[t], high[t + 1] + most_twist);
-  }
+  const std::vector<double> held = with_steps_between(twist, fewest, largest);
   for (std::size_t t = 0; t < frames; ++t)
-    out.set(t, normalized(out[t] * axis_angle(axis(t), 0.5 * (low[t] + high[t]) - twist[t])));
+    out.set(t, normalized(out[t] * axis_angle(axis, held[t] - twist[t])));
   make_continuous(out.x, out.y, out.z, out.w);
 }
 
 void aim_links(const Skeleton& skeleton, const std::vector<std::vector<int>>& ends, const WorldMotion& from,
-               double most_twist, WorldMotion& to, Work& work) {
+               const TurnLimits& limits, WorldMotion& to, Work& work) {
+  const RestPose rest = rest_pose(skeleton);
   for (int j = 0; j < skeleton.size(); ++j) {
     work.check();
     const auto& below = ends[j];
@@ -174,19 +177,20 @@ void aim_links(const Skeleton& skeleton, const std::vector<std::vector<int>>& en
     const auto turned = to.orientation(j);
     const auto old = from.orientation(j);
     if (below.size() == 1) {
-      aim_link(from.position(j), from.position(below[0]), is(j), is(below[0]), old, most_twist, turned);
+      aim_link(rest_link(rest, j, j, below[0]), from.position(j), from.position(below[0]), is(j),
+               is(below[0]), old, limits, turned);
     } else if (below.empty() && parent >= 0) {
-      aim_link(from.position(parent), from.position(j), is(parent), is(j), old, most_twist, turned);
+      aim_link(rest_link(rest, j, parent, j), from.position(parent), from.position(j), is(parent), is(j), old,
+               limits, turned);
     } else {
-      std::vector<Vec3> a(below.size()), b(below.size());
-      for (std::size_t t = 0; t < to.frames(); ++t) {
-        for (std::size_t i = 0; i < below.size(); ++i) {
-          a[i] = from.position(below[i])[t] - from.position(j)[t];
-          b[i] = is(below[i])[t] - is(j)[t];
-        }
-        turned.set(t, normalized(best_turn(a, b) * old[t]));
+      std::vector<Vec3> axes;
+      std::vector<ConstVec3Track> old_ends, ends_now;
+      for (int end : below) {
+        axes.push_back(rest_link(rest, j, j, end));
+        old_ends.push_back(from.position(end));
+        ends_now.push_back(is(end));
       }
-      limit_turns(old, most_twist, turned);
+      aim_branch(axes, from.position(j), old_ends, is(j), ends_now, old, limits, turned);
     }
   }
 }

@@ -126,7 +126,7 @@ struct PinnedChain {
 };
 
 void bend(const Skeleton& skeleton, const PinnedChain& chain, const WorldMotion& world, WorldMotion& moved,
-          double most_twist, Work& work) {
+          const TurnLimits& limits, Work& work) {
   const std::size_t frames = world.frames();
   std::vector<double> places{0};
   for (std::size_t i = 1; i < chain.joints.size(); ++i)
@@ -171,10 +171,12 @@ void bend(const Skeleton& skeleton, const PinnedChain& chain, const WorldMotion&
           t, world.position(j)[t] + shift[static_cast<std::size_t>(at - chain.joints.begin())]);
     }
   }
+  const RestPose rest = rest_pose(skeleton);
   for (std::size_t i = 0; i + 1 < chain.joints.size(); ++i) {
     const int j = chain.joints[i], next = chain.joints[i + 1];
-    aim_link(world.position(j), world.position(next), std::as_const(moved).position(j),
-             std::as_const(moved).position(next), world.orientation(j), most_twist, moved.orientation(j));
+    aim_link(rest_link(rest, j, j, next), world.position(j), world.position(next),
+             std::as_const(moved).position(j), std::as_const(moved).position(next), world.orientation(j),
+             limits, moved.orientation(j));
     // A pinned joint keeps its orientation, also where the chain goes on to another.
     for (const auto& [index, goal] : chain.goals) {
       if (index != i) continue;
@@ -217,7 +219,7 @@ Motion pin(const Motion& motion, const PinParams& params, const Contacts* contac
   for (auto& [first, chain] : chains) {
     std::sort(chain.goals.begin(), chain.goals.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
-    bend(skeleton, chain, world, moved, most_twist_at(motion.fps()), work);
+    bend(skeleton, chain, world, moved, turn_limits(motion.fps()), work);
   }
   return motion_from_world(motion.shared_skeleton(), motion.shared_source(), motion.fps(),
                            motion.translating(), moved, work);

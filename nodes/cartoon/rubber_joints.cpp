@@ -8,6 +8,8 @@
 
 #include "nodes/cartoon/link_turns.h"
 #include "nodes/cartoon/planted_limbs.h"
+#include "nodes/cartoon/sub_joint_flips.h"
+#include "nodes/cartoon/sub_joint_turns.h"
 #include "nodes/cartoon/world_to_local.h"
 #include "nodes/motion/kinematics.h"
 
@@ -30,109 +32,22 @@ WorldMotion driven_positions(const SubJoints& sub, const WorldMotion& world, Wor
   return out;
 }
 
-void swing(const Motion& motion, const SubJoints& sub, const RubberParams& params, const Contacts* contacts,
-           WorldMotion& places, Work& work) {
+// How far the springs take sub-joints from their driven places, times `blend`.
+std::vector<Vec3> swings(const Motion& motion, const SubJoints& sub, const RubberParams& params,
+                         const WorldMotion& places, Work& work) {
   const std::size_t count = sub.all.size();
   std::vector<int> parents;
   for (const SubJoint& one : sub.all) parents.push_back(one.parent);
   ParticlePath driven{count, std::vector<Vec3>(count * places.frames())};
   for (std::size_t i = 0; i < count; ++i) {
-    const auto from = std::as_const(places).position(static_cast<int>(i));
+    const auto from = places.position(static_cast<int>(i));
     for (std::size_t t = 0; t < places.frames(); ++t) driven.at[t * count + i] = from[t];
   }
-  const ParticlePath masses = simulate(parents, driven, motion.fps(), params.springs, false, work).positions;
-  std::vector<std::vector<double>> left(count);
-  if (contacts) left = swing_left(motion, sub, *contacts);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto at = places.position(static_cast<int>(i));
-    for (std::size_t t = 0; t < places.frames(); ++t) {
-      const Vec3 s = at[t];
-      const double part = params.blend * (left[i].empty() ? 1 : left[i][t]);
-      at.set(t, s + part * (masses.at[t * count + i] - s));
-    }
-  }
+  ParticlePath masses = simulate(parents, driven, motion.fps(), params.springs, false, work).positions;
+  for (std::size_t n = 0; n < masses.at.size(); ++n)
+    masses.at[n] = params.blend * (masses.at[n] - driven.at[n]);
+  return std::move(masses.at);
 }
-
-// Orientations of the sub-joints; `ends`: links_below() of the joints.
-class Turning {
- public:
-  Turning(const Skeleton& skeleton, const SubJoints& sub, const std::vector<std::vector<int>>& ends,
-          const WorldMotion& world, double most_twist, WorldMotion& places)
-      : skeleton_(skeleton),
-        sub_(sub),
-        ends_(ends),
-        world_(world),
-        most_twist_(most_twist),
-        places_(places) {}
-
-  void turn_all(Work& work) {
-    for (int k = 0; k < skeleton_.size(); ++k) {
-      work.check();
-      turn_first(k);
-    }
-    for (int k = 0; k < skeleton_.size(); ++k) {
-      work.check();
-      if (sub_.all[sub_.first[k]].count > 1) turn_rest(k);
-    }
-  }
-
- private:
-  ConstVec3Track place(int sub) const { return std::as_const(places_).position(sub); }
-
-  void aim(int k, int from_joint, int to_joint, int from_sub, int to_sub) {
-    aim_link(world_.position(from_joint), world_.position(to_joint), place(from_sub), place(to_sub),
-             world_.orientation(k), most_twist_, places_.orientation(sub_.first[k]));
-  }
-
-  void turn_first(int k) {
-    const int own = sub_.first[k];
-    const SubJoint& first = sub_.all[own];
-    const auto& below = ends_[k];
-    const int parent = skeleton_.joints[k].parent;
-    if (first.count > 1) {
-      aim(k, k, first.next, own, own + 1);
-    } else if (below.size() == 1) {
-      aim(k, k, below[0], own, sub_.first[below[0]]);
-    } else if (below.empty() && parent >= 0) {
-      aim(k, parent, k, sub_.first[parent], own);
-    } else {
-      std::vector<Vec3> a(below.size()), b(below.size());
-      const auto out = places_.orientation(own);
-      for (std::size_t t = 0; t < world_.frames(); ++t) {
-        for (std::size_t i = 0; i < below.size(); ++i) {
-          a[i] = world_.position(below[i])[t] - world_.position(k)[t];
-          b[i] = place(sub_.first[below[i]])[t] - place(own)[t];
-        }
-        out.set(t, normalized(best_turn(a, b) * world_.orientation(k)[t]));
-      }
-      limit_turns(world_.orientation(k), most_twist_, out);
-    }
-  }
-
-  // Slerp from J′_{k,1} to the child's first. The turn between them is followed through time, so that it may
-  // pass half a turn without the way round changing.
-  void turn_rest(int k) {
-    const int own = sub_.first[k];
-    const SubJoint& first = sub_.all[own];
-    const auto from = std::as_const(places_).orientation(own);
-    const auto to = std::as_const(places_).orientation(sub_.first[first.next]);
-    Quat before{};
-    for (std::size_t t = 0; t < world_.frames(); ++t) {
-      const Quat between = nearer(inverse(from[t]) * to[t], before);
-      before = between;
-      const Vec3 half = log(between);
-      for (int l = 1; l < first.count; ++l)
-        places_.orientation(own + l).set(t, normalized(from[t] * exp(sub_.all[own + l].part() * half)));
-    }
-  }
-
-  const Skeleton& skeleton_;
-  const SubJoints& sub_;
-  const std::vector<std::vector<int>>& ends_;
-  const WorldMotion& world_;
-  double most_twist_;
-  WorldMotion& places_;
-};
 
 std::shared_ptr<const Skeleton> skeleton_at(const Skeleton& skeleton, const SubJoints& sub,
                                             const WorldMotion& rest) {
@@ -171,6 +86,14 @@ std::shared_ptr<const Skeleton> skeleton_at(const Skeleton& skeleton, const SubJ
   return out;
 }
 
+// Each joint's link to its first child at rest, in its own frame; zero for a tip.
+std::vector<Vec3> own_links(const Skeleton& skeleton) {
+  std::vector<Vec3> links(skeleton.joints.size());
+  for (int j = skeleton.size() - 1; j > 0; --j)
+    links[skeleton.joints[j].parent] = normalized(skeleton.joints[j].offset);
+  return links;
+}
+
 // The unit, the axes and the frame time; the layout of a BVH's joints is the old skeleton's.
 std::shared_ptr<const SourceFacts> facts_without_layout(const SourceFacts& source) {
   auto facts = std::make_shared<SourceFacts>(source);
@@ -189,7 +112,7 @@ SubSkeleton sub_skeleton(const Motion& motion, const SubJoints& sub, Work& work)
                        std::vector<bool>(skeleton.joints.size(), false));
   const WorldMotion world = world_motion(at_rest, work);
   WorldMotion places = driven_positions(sub, world, work);
-  Turning(skeleton, sub, links_below(motion), world, most_twist_at(motion.fps()), places).turn_all(work);
+  turn_sub_joints(skeleton, sub, links_below(motion), world, motion.fps(), {}, places, work);
   SubSkeleton out;
   out.skeleton = skeleton_at(skeleton, sub, places);
   for (int i = 0; i < places.joints(); ++i) {
@@ -209,18 +132,20 @@ RubberResult rubber_joints(const Motion& motion, const RubberParams& params, con
   }
   result.sub_joints = lay_sub_joints(motion, params.sub_joints, work);
   const SubJoints& sub = result.sub_joints;
-  const std::vector<std::vector<int>> ends = links_below(motion);
-  const double most_twist = most_twist_at(motion.fps());
-
   const std::shared_ptr<const Skeleton> rubber = sub_skeleton(motion, sub, work).skeleton;
 
   const WorldMotion world = world_motion(motion, work);
   WorldMotion places = driven_positions(sub, world, work);
+  const FlipWatch watch(sub, *rubber, world, motion.fps());
+  straighten_flips(sub, watch, world, motion.fps(), places, work);
   work.progress(0.2);
-  if (params.simulate && params.blend != 0 && motion.frames() > 1)
-    swing(motion, sub, params, contacts, places, work);
+  if (params.simulate && params.blend != 0 && motion.frames() > 1) {
+    const auto left =
+        contacts ? swing_left(motion, sub, *contacts) : std::vector<std::vector<double>>(sub.all.size());
+    add_swings(sub, watch, swings(motion, sub, params, places, work), left, motion.fps(), places, work);
+  }
   work.progress(0.7);
-  Turning(skeleton, sub, ends, world, most_twist, places).turn_all(work);
+  turn_sub_joints(skeleton, sub, links_below(motion), world, motion.fps(), own_links(*rubber), places, work);
   std::vector<bool> translates(rubber->joints.size());
   translates[0] = motion.translates(0);
   result.motion = motion_from_world(rubber, facts_without_layout(motion.source()), motion.fps(), translates,

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <optional>
 
 #include "nodes/cartoon/exaggerate.h"
+#include "nodes/cartoon/link_turns.h"
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/files/bvh_read.h"
 #include "nodes/files/bvh_write.h"
@@ -127,66 +129,103 @@ TEST(RubberJoints, LetPlantedFeetStand) {
   EXPECT_GT(frames, 100);
 }
 
-// Largest turn of a link's direction from one frame to the next, where it has over `part` of its rest length.
-double largest_turn(const Motion& motion, double part, std::string* where = nullptr) {
-  const WorldMotion world = world_motion(motion);
-  double worst = 0;
-  for (int j = 1; j < motion.joints(); ++j) {
-    const int p = motion.skeleton().joints[j].parent;
-    const double rest = motion.skeleton().link_length(j);
-    if (rest < 0.01) continue;  // its direction is nobody's
-    for (std::size_t t = 1; t < motion.frames(); ++t) {
-      const Vec3 a = world.position(j)[t - 1] - world.position(p)[t - 1];
-      const Vec3 b = world.position(j)[t] - world.position(p)[t];
-      if (norm(a) <= part * rest || norm(b) <= part * rest) continue;
-      const double angle = turn(smallest_turn(a, b));
-      if (angle > worst && where) *where = motion.skeleton().joints[j].name + " at " + std::to_string(t);
-      worst = std::max(worst, angle);
-    }
-  }
-  return worst * degrees_per_radian;
+// Turn of a link's direction from the frame before, in degrees.
+double link_turn(const WorldMotion& world, int from, int to, std::size_t t) {
+  const Vec3 before = world.position(to)[t - 1] - world.position(from)[t - 1];
+  return turn(smallest_turn(before, world.position(to)[t] - world.position(from)[t])) * degrees_per_radian;
+}
+double link_length(const WorldMotion& world, int from, int to, std::size_t t) {
+  return norm(world.position(to)[t] - world.position(from)[t]);
 }
 
-// Largest change from frame to frame of the twist of a joint's world orientation about its own link.
-double largest_twist(const Motion& motion, std::string* where = nullptr) {
-  const WorldMotion world = world_motion(motion);
-  double worst = 0;
-  for (int j = 1; j < motion.joints(); ++j) {
-    const int p = motion.skeleton().joints[j].parent;
-    const Vec3 axis = normalized(motion.skeleton().joints[j].offset);
-    if (norm(axis) == 0) continue;
-    for (std::size_t t = 1; t < motion.frames(); ++t) {
-      const Quat step = inverse(world.orientation(p)[t - 1]) * world.orientation(p)[t];
-      const double twist = turn(twist_about(step, axis));
-      if (twist > worst && where) *where = motion.skeleton().joints[j].name + " at " + std::to_string(t);
-      worst = std::max(worst, twist);
-    }
-  }
-  return worst * degrees_per_radian;
+// Change from the frame before of the twist of a joint's world orientation about its link to a joint below.
+double twist(const WorldMotion& world, const RestPose& rest, int joint, int below, std::size_t t) {
+  const Quat step = inverse(world.orientation(joint)[t - 1]) * world.orientation(joint)[t];
+  return turn(twist_about(step, rest_link(rest, joint, joint, below))) * degrees_per_radian;
 }
 
-TEST(RubberJoints, NeverFlipOnRealClips) {
+// A link of an output, and that of the input it is part of.
+struct LinkPair {
+  int from, to, input_from, input_to;
+};
+
+// Counts, in every link and frame, what no link may do: turn by more than max(30°, 2 ω times the input's own
+// turn) while over 20 % of its length at rest, or twist by more than 15° unless the input does.
+void expect_no_flips(const std::string& what, const Motion& input, const Motion& output,
+                     const std::vector<LinkPair>& links) {
+  constexpr double omega = 5;
+  const WorldMotion before = world_motion(input), after = world_motion(output);
+  const RestPose old_rest = rest_pose(input.skeleton()), rest = rest_pose(output.skeleton());
+  const auto ends = links_below(input);
+  const double height = rest_height(input.skeleton());
+  int flips = 0, spins = 0;
+  double largest_turn = 0, largest_twist = 0;
+  std::string where;
+  for (const LinkPair& link : links) {
+    const double length = output.skeleton().link_length(link.to) * output.skeleton().above_scale;
+    if (length < 1e-3 * height) continue;  // its direction is nobody's
+    for (std::size_t t = 1; t < input.frames(); ++t) {
+      const auto at = [&] {
+        return output.skeleton().joints[link.to].name + " at frame " + std::to_string(t);
+      };
+      if (link_length(after, link.from, link.to, t - 1) > 0.2 * length &&
+          link_length(after, link.from, link.to, t) > 0.2 * length) {
+        const double turns = link_turn(after, link.from, link.to, t);
+        const double own = link_turn(before, link.input_from, link.input_to, t);
+        largest_turn = std::max(largest_turn, turns);
+        if (turns > std::max(30.0, 2 * omega * own) && ++flips == 1)
+          where += at() + " turns by " + std::to_string(turns) + ", input " + std::to_string(own) + "; ";
+      }
+      const double twists = twist(after, rest, link.from, link.to, t);
+      // A sub-joint takes part in what its joint and the one below twist.
+      double own = twist(before, old_rest, link.input_from, link.input_to, t);
+      if (ends[link.input_to].size() == 1)
+        own = std::max(own, twist(before, old_rest, link.input_to, ends[link.input_to][0], t));
+      largest_twist = std::max(largest_twist, twists);
+      if (twists > std::max(15.0, own * (1 + 1e-6)) && ++spins == 1)
+        where += at() + " twists by " + std::to_string(twists) + ", input " + std::to_string(own) + "; ";
+    }
+  }
+  EXPECT_EQ(flips, 0) << what << ": " << where;
+  EXPECT_EQ(spins, 0) << what << ": " << where;
+  testing::Test::RecordProperty(
+      what, "turns " + std::to_string(largest_turn) + ", twists " + std::to_string(largest_twist));
+}
+
+TEST(RubberJoints, NeverFlipOnAnyClip) {
   KINEGRAPH_NEEDS_MOCAP();
-  for (const char* file : cartoon_clips) {
+  int clips = 0;
+  for (const std::string& file : every_clip()) {
     Alone work;
-    const Motion clip = resampled(cartoon_clip(file), 120, work);
+    const auto loaded = whole_clip(file);
+    if (!loaded) continue;
+    const Motion clip = resampled(*loaded, 120, work);
     const Motion wild = exaggerate(clip, {}, work).motion;
-    const Motion rubber = rubber_joints(wild, {}, nullptr, work).motion;
-    std::string a, b, c, d;
-    const double in_turn = largest_turn(clip, 0.2), in_twist = largest_twist(clip);
-    const double wild_turn = largest_turn(wild, 0.2, &a), rubber_turn = largest_turn(rubber, 0.2, &b);
-    const double wild_twist = largest_twist(wild, &c), rubber_twist = largest_twist(rubber, &d);
-    const double limit = std::max(30.0, 2 * 5 * in_turn);
-    EXPECT_LT(wild_turn, limit) << file << " " << a;
-    EXPECT_LT(rubber_turn, limit) << file << " " << b;
-    EXPECT_LT(wild_twist, std::max(15.0, 1.05 * in_twist)) << file << " " << c;
-    // Both nodes may add 5°; next to a wrist that is bent by nearly half a turn the Slerps swing on top of
-    // that.
-    EXPECT_LT(rubber_twist, std::max(20.0, 2.5 * in_twist)) << file << " " << d;
-    RecordProperty(file, "input turns " + std::to_string(in_turn) + " twists " + std::to_string(in_twist) +
-                             "; exaggerated " + std::to_string(wild_turn) + " " + std::to_string(wild_twist) +
-                             "; rubber " + std::to_string(rubber_turn) + " " + std::to_string(rubber_twist));
+    std::vector<LinkPair> links;
+    const auto ends = links_below(clip);
+    for (int j = 0; j < clip.joints(); ++j)
+      for (int below : ends[j]) links.push_back({j, below, j, below});
+    expect_no_flips(file + " exaggerated", clip, wild, links);
+
+    std::optional<Contacts> contacts;  // as the node finds them
+    try {
+      contacts = detect_contacts(wild, {}, work);
+    } catch (const Failure&) {
+    }
+    const RubberResult rubber = rubber_joints(wild, {}, contacts ? &*contacts : nullptr, work);
+    const SubJoints& sub = rubber.sub_joints;
+    links.clear();
+    for (int i = 0; i < static_cast<int>(sub.all.size()); ++i) {
+      const SubJoint& one = sub.all[i];
+      if (one.count > 1)
+        links.push_back({i, one.step + 1 < one.count ? i + 1 : sub.first[one.next], one.joint, one.next});
+      else
+        for (int below : ends[one.joint]) links.push_back({i, sub.first[below], one.joint, below});
+    }
+    expect_no_flips(file + " as rubber", clip, rubber.motion, links);
+    ++clips;
   }
+  EXPECT_GT(clips, 50);
 }
 
 TEST(RubberJoints, StayNearTheLimbOnRealClips) {
