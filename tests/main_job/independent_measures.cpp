@@ -1,7 +1,10 @@
 #include "independent_measures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace kinegraph::independent {
 namespace {
@@ -165,6 +168,61 @@ std::map<std::string, double> largest_accelerations(const Motion& motion) {
     out[motion.skeleton().joints[j].name] = largest;
   }
   return out;
+}
+
+double farthest_from_plants(const Motion& motion, const Contacts& contacts) {
+  const auto positions = positions_of(motion);
+  // World orientation by plain kinematics, for points that lie in a joint's frame.
+  std::vector<std::vector<Quat>> world(positions.size(), std::vector<Quat>(motion.frames()));
+  for (int j = 0; j < motion.joints(); ++j)
+    for (std::size_t t = 0; t < motion.frames(); ++t) {
+      const int parent = motion.skeleton().joints[j].parent;
+      world[j][t] = (parent < 0 ? motion.skeleton().above : world[parent][t]) * motion.rotation(j)[t];
+    }
+  double largest = 0;
+  for (const FootPoint& point : contacts.points) {
+    const int joint = motion.skeleton().find(point.joint_name);
+    if (joint < 0) return std::numeric_limits<double>::infinity();
+    for (const auto& run : runs_of(point.planted)) {
+      const auto at = [&](std::size_t t) {
+        return positions[joint][t] + rotate(world[joint][t], point.local);
+      };
+      Vec3 mean;
+      for (std::size_t t = run.start; t < run.end; ++t)
+        mean += at(t) / static_cast<double>(run.end - run.start);
+      for (std::size_t t = run.start; t < run.end; ++t) largest = std::max(largest, length(at(t) - mean));
+    }
+  }
+  return largest;
+}
+
+std::string joints_that_jerk(const Motion& result, const Motion& one, const Motion& other) {
+  const auto first = largest_accelerations(one), second = largest_accelerations(other);
+  const std::vector<int> of = partners(other.skeleton(), one.skeleton(), {});
+  std::string told;
+  for (const auto& [joint, largest] : largest_accelerations(result)) {
+    const int at = one.skeleton().find(joint);
+    double own = first.at(joint);
+    if (at >= 0 && of[at] >= 0) own = std::max(own, second.at(other.skeleton().joints[of[at]].name));
+    if (largest >= 2 * own + 20)
+      told += fmt::format("{}: {:.0f} m/s², the larger of its inputs {:.0f}; ", joint, largest, own);
+  }
+  return told;
+}
+
+double mean_pitch(const Motion& motion, const std::string& from, const std::string& to,
+                  const std::string& left_hip, const std::string& right_hip) {
+  const auto positions = positions_of(motion);
+  const auto& joint = [&](const std::string& name) -> const std::vector<Vec3>& {
+    return positions[static_cast<std::size_t>(motion.skeleton().find(name))];
+  };
+  double sum = 0;
+  for (std::size_t t = 0; t < motion.frames(); ++t) {
+    const Vec3 across = joint(left_hip)[t] - joint(right_hip)[t], torso = joint(to)[t] - joint(from)[t];
+    const double forwards = (torso.z * across.x - torso.x * across.z) / std::hypot(across.x, across.z);
+    sum += std::atan2(forwards, torso.y);
+  }
+  return sum / static_cast<double>(motion.frames()) * 180 / M_PI;
 }
 
 Steps steps_of(const Motion& motion, const std::string& left_ankle, const std::string& right_ankle) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "nodes/motion/contacts.h"
 #include "nodes/motion/motion.h"
 #include "nodes/style/stats.h"
 
@@ -31,8 +32,19 @@ double mean_of(const std::map<std::string, double>& values);
 
 // World positions of every joint and frame, by plain forward kinematics.
 std::vector<std::vector<Vec3>> positions_of(const Motion& motion);
+// The farthest, in metres, that a point which should be planted comes from the middle of its plant.
+double farthest_from_plants(const Motion& motion, const Contacts& contacts);
 // Largest acceleration of each joint after a zero-phase 15 Hz second-order Butterworth low-pass, m/s².
 std::map<std::string, double> largest_accelerations(const Motion& motion);
+
+// Joints whose largest acceleration is over twice the larger of those in two inputs and 20 m/s², each with
+// the numbers; empty where all is smooth.
+std::string joints_that_jerk(const Motion& result, const Motion& one, const Motion& other);
+
+// Degrees by which the line from one joint to another leans forwards of upright, mean over the frames;
+// forwards is square to the line from the right hip to the left one.
+double mean_pitch(const Motion& motion, const std::string& from, const std::string& to,
+                  const std::string& left_hip, const std::string& right_hip);
 
 // Steps, told by the legs alone, so that runs and sneaks count as well: how far the left ankle is ahead of
 // the right in the heading's frame, low-passed at 4 Hz and without its mean; every passing from one side to
