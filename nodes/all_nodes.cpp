@@ -38,6 +38,7 @@ NodeType concatenate_node();
 NodeType filter_node();
 NodeType mirror_node();
 NodeType resample_node();
+NodeType retarget_node();
 NodeType trim_node();
 NodeType exaggerate_node();
 NodeType rubber_joints_node();
@@ -95,6 +96,7 @@ Registry all_nodes() {
   registry.add(filter_node());
   registry.add(mirror_node());
   registry.add(resample_node());
+  registry.add(retarget_node());
   registry.add(trim_node());
   return registry;
 }

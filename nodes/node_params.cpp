@@ -129,6 +129,8 @@ Vec3 rest_way(const RestPose& pose, int ancestor, int joint) {
   return rotate(inverse(pose.orientations[ancestor]), pose.positions[joint] - pose.positions[ancestor]);
 }
 
+}  // namespace
+
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t shown = 8;
   std::string text;
@@ -136,8 +138,6 @@ std::string listed(const std::vector<std::string>& names) {
   if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
   return text;
 }
-
-}  // namespace
 
 void warn_about_partners(const Skeleton& from, const Skeleton& to, const std::vector<int>& partner_of_to,
                          Work& work, const std::vector<bool>* chosen) {

@@ -1,5 +1,6 @@
 // Parameters that several nodes share: joints, range, fade, amount, map.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "graph/compute.h"
@@ -34,5 +35,7 @@ void check_same_rate(double a, double b, std::string_view port_a, std::string_vi
 // `to` count; null: all.
 void warn_about_partners(const Skeleton& from, const Skeleton& to, const std::vector<int>& partner_of_to,
                          Work& work, const std::vector<bool>* chosen = nullptr);
+// "Hips, Spine, Head": at most eight, and how many more.
+std::string listed(const std::vector<std::string>& names);
 
 }  // namespace kinegraph

@@ -78,6 +78,7 @@ Contacts detect_contacts(const Motion& motion, const DetectContactsParams& param
   contacts.points = foot_points(motion.skeleton(), params.heels, params.balls, work);
   const WorldMotion world = world_motion(motion, work);
   contacts.floor = floor_under(motion.skeleton(), world, contacts.points);
+  contacts.leg = leg_length(motion.skeleton());
   for (std::size_t i = 0; i < contacts.points.size(); ++i) {
     work.check();
     FootPoint& point = contacts.points[i];

@@ -2,6 +2,7 @@
 
 #include "graph/compute.h"
 #include "graph/node_type.h"
+#include "nodes/feet/carried_contacts.h"
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/feet/footskate.h"
 #include "nodes/node_params.h"
@@ -25,7 +26,8 @@ void clean(Compute& node) {
   if (node.values("contacts").empty()) {
     contacts = std::make_shared<const Contacts>(detect_contacts(motion, {}, node.work()));
   } else {
-    contacts = node.shared_input<Contacts>("contacts");
+    contacts = std::make_shared<const Contacts>(
+        carried_contacts(node.input<Contacts>("contacts"), motion, node.work()));
   }
   node.set_output("contacts", contacts);
   if (!node.wanted("motion")) return;

@@ -30,6 +30,7 @@ Json contacts_json(const Value& value) {
   out["fps"] = contacts.fps;
   out["frames"] = contacts.frames;
   out["floor"] = contacts.floor;
+  if (contacts.leg > 0) out["leg"] = contacts.leg;
   out["points"] = std::move(points);
   return out;
 }
@@ -41,6 +42,7 @@ ValuePtr contacts_of_json(const Json& json) {
   contacts->frames = count_member(json, "frames");
   if (contacts->frames > 100'000'000) bad_analysis(member(json, "frames"), "over 100 million frames");
   contacts->floor = number_member(json, "floor");
+  if (json.find("leg")) contacts->leg = number_member(json, "leg");
   for (const Json& entry : list_member(json, "points")) {
     if (contacts->points.size() >= 1000) bad_analysis(entry, "over 1000 foot points");
     FootPoint point;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "nodes/feet/carried_contacts.h"
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/judge/distance_measures.h"
 #include "nodes/judge/feet_measures.h"
@@ -25,9 +26,7 @@ struct Row {
 };
 
 void check_contacts(const Contacts& contacts, const Motion& motion) {
-  bool fits = contacts.points.empty() || contacts.frames == motion.frames();
-  for (const FootPoint& point : contacts.points) fits = fits && point.joint < motion.joints();
-  if (fits) return;
+  if (contacts.points.empty() || contacts.frames == motion.frames()) return;
   throw Failure(error("length-mismatch", fmt::format("contacts are of {} frames and the motion has {}",
                                                      contacts.frames, motion.frames()))
                     .at_port("contacts")
@@ -101,6 +100,8 @@ Metrics measure(const Motion& motion, const Motion* reference, const Contacts* c
     contacts = &*found;
   }
   check_contacts(*contacts, motion);
+  const Contacts own = carried_contacts(*contacts, motion, work);
+  contacts = &own;
 
   const WorldMotion world = world_motion(motion, work);
   FeetMeasures feet = measure_feet(world, motion.fps(), *contacts, joints, window);

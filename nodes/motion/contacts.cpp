@@ -14,6 +14,7 @@ void Contacts::encode(Encoder& out) const {
   out.f64(fps);
   out.u64(frames);
   out.f64(floor);
+  out.f64(leg);
   encode_list(out, points, [&](const FootPoint& point) {
     out.text(point.foot);
     out.boolean(point.left);
@@ -31,6 +32,7 @@ ValuePtr decode_contacts(Decoder& in) {
   contacts->fps = in.f64();
   contacts->frames = in.u64();
   contacts->floor = in.f64();
+  contacts->leg = in.f64();
   contacts->points = decode_list<FootPoint>(in, [&] {
     FootPoint point;
     point.foot = in.text();
@@ -51,6 +53,7 @@ ValuePtr decode_contacts(Decoder& in) {
 std::optional<NonFinite> Contacts::non_finite() const {
   if (!std::isfinite(fps)) return NonFinite{"frames per second", "", {}};
   if (!std::isfinite(floor)) return NonFinite{"floor", "", {}};
+  if (!std::isfinite(leg)) return NonFinite{"leg", "", {}};
   for (const FootPoint& point : points)
     if (!is_finite(point.local)) return NonFinite{"foot point", point.joint_name, {}};
   for (const FootPoint& point : points)

@@ -27,6 +27,7 @@ class Contacts final : public Value {
   double fps = 120;
   std::size_t frames = 0;
   double floor = 0;               // world height, m
+  double leg = 0;                 // length of the legs of the skeleton they are of, m; 0 = not known
   std::vector<FootPoint> points;  // left heel, left ball, right heel, right ball
 
   std::string_view type() const override { return "Contacts"; }

@@ -1,72 +1,15 @@
 // Which joints are the legs, by their names in the conventions that are about, else by the shape of the rest
 // pose.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <initializer_list>
 
+#include "nodes/motion/joint_names.h"
+#include "nodes/motion/limb_chains.h"
 #include "nodes/motion/skeleton.h"
 
 namespace kinegraph {
 
 namespace {
-
-enum class Side { none, left, right };
-enum class Part { none, hip, knee, ankle, toe };
-struct Meaning {
-  Side side = Side::none;
-  Part part = Part::none;
-};
-
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-Part part_of(std::string word) {
-  while (!word.empty() && std::isdigit(static_cast<unsigned char>(word.back()))) word.pop_back();
-  if (is_one_of(word, {"upleg", "upperleg", "thigh", "femur", "hip"})) return Part::hip;
-  if (is_one_of(word, {"leg", "lowleg", "lowerleg", "loleg", "shin", "tibia", "calf", "knee"}))
-    return Part::knee;
-  if (is_one_of(word, {"foot", "ankle"})) return Part::ankle;
-  if (is_one_of(word, {"toe", "toes", "toebase", "ball", "forefoot"})) return Part::toe;
-  return Part::none;
-}
-
-// "mixamorig:LeftUpLeg", "lfemur", "lThigh", "UpperLeg_L", "CC_Base_L_Thigh", "LEFT_HIP#", "upperleg01.L".
-Meaning meaning_of(std::string_view name) {
-  if (auto colon = name.rfind(':'); colon != name.npos) name.remove_prefix(colon + 1);
-  std::string word;  // letters and digits, lower case, without the side
-  Side side = Side::none;
-  for (std::size_t i = 0; i < name.size();) {
-    if (!std::isalnum(static_cast<unsigned char>(name[i]))) {
-      ++i;
-      continue;
-    }
-    std::string token;
-    while (i < name.size() && std::isalnum(static_cast<unsigned char>(name[i])))
-      token += static_cast<char>(std::tolower(static_cast<unsigned char>(name[i++])));
-    if (token == "l" || token == "r") {
-      side = token == "l" ? Side::left : Side::right;
-    } else if (!is_one_of(token, {"cc", "base", "bip", "bip01", "bip001", "def", "jnt", "joint"})) {
-      word += token;
-    }
-  }
-  for (auto [long_name, its_side] : {std::pair{"left", Side::left}, std::pair{"right", Side::right}}) {
-    if (auto at = word.find(long_name); at != word.npos) {
-      side = its_side;
-      word.erase(at, std::string_view(long_name).size());
-    }
-  }
-  // A lone l or r before or after: only where what is left is a leg's part, as in lfemur.
-  if (side == Side::none && word.size() > 1) {
-    bool at_front = word.front() == 'l' || word.front() == 'r';
-    if (at_front && part_of(word.substr(1)) != Part::none && part_of(word) == Part::none) {
-      side = word.front() == 'l' ? Side::left : Side::right;
-      word.erase(0, 1);
-    }
-  }
-  return {side, side == Side::none ? Part::none : part_of(word)};
-}
 
 double world_length(const RestPose& pose, int a, int b) {
   return norm(pose.positions[a] - pose.positions[b]);
@@ -74,11 +17,11 @@ double world_length(const RestPose& pose, int a, int b) {
 
 // The joint after the ankle: named so, else the child with the longest link; -1 where there is none with a
 // length.
-int toe_below(const Skeleton& skeleton, const std::vector<Meaning>& meanings, const RestPose& pose,
+int toe_below(const Skeleton& skeleton, const std::vector<JointName>& meanings, const RestPose& pose,
               int ankle) {
   int toe = -1;
   for (int j = ankle + 1; j < skeleton.size(); ++j) {
-    if (meanings[j].part == Part::toe && skeleton.joints[j].parent == ankle &&
+    if (meanings[j].part == BodyPart::toe && skeleton.joints[j].parent == ankle &&
         (toe < 0 || world_length(pose, j, ankle) > world_length(pose, toe, ankle)))
       toe = j;
   }
@@ -96,18 +39,18 @@ void add_toe_tip(const Skeleton& skeleton, Leg& leg) {
     if (end.joint == joint && norm(end.offset) > 0 && !leg.toe_tip) leg.toe_tip = end.offset;
 }
 
-std::optional<Leg> named_leg(const Skeleton& skeleton, const std::vector<Meaning>& meanings,
+std::optional<Leg> named_leg(const Skeleton& skeleton, const std::vector<JointName>& meanings,
                              const RestPose& pose, Side side) {
   for (int ankle = 0; ankle < skeleton.size(); ++ankle) {
-    if (meanings[ankle].side != side || meanings[ankle].part != Part::ankle) continue;
+    if (meanings[ankle].side != side || meanings[ankle].part != BodyPart::foot) continue;
     Leg leg;
     leg.left = side == Side::left;
     leg.ankle = ankle;
     // The topmost of several: upperleg01, upperleg02, lowerleg01, lowerleg02.
     for (int j = skeleton.joints[ankle].parent; j >= 0; j = skeleton.joints[j].parent) {
       if (meanings[j].side != side) continue;
-      if (meanings[j].part == Part::knee && leg.hip < 0) leg.knee = j;
-      if (meanings[j].part == Part::hip && leg.knee >= 0) leg.hip = j;
+      if (meanings[j].part == BodyPart::shin && leg.hip < 0) leg.knee = j;
+      if (meanings[j].part == BodyPart::thigh && leg.knee >= 0) leg.hip = j;
     }
     if (leg.hip < 0 || leg.knee < 0) continue;
     leg.toe = toe_below(skeleton, meanings, pose, ankle);
@@ -118,40 +61,14 @@ std::optional<Leg> named_leg(const Skeleton& skeleton, const std::vector<Meaning
 
 // --- by geometry ---
 
-// Joints from `top` (left out) down to `bottom`.
-std::vector<int> chain_between(const Skeleton& skeleton, int top, int bottom) {
-  std::vector<int> chain;
-  for (int j = bottom; j != top; j = skeleton.joints[j].parent) chain.push_back(j);
-  std::reverse(chain.begin(), chain.end());
-  return chain;
-}
-
-int common_ancestor(const Skeleton& skeleton, int a, int b) {
-  while (a != b) (a > b ? a : b) = skeleton.joints[std::max(a, b)].parent;
-  return a;
-}
-
-// Thigh and shin are the two longest neighbouring links of the chain.
 std::optional<Leg> leg_of_chain(const RestPose& pose, const std::vector<int>& chain) {
-  std::vector<int> bends;  // without joints that lie on the one before
-  for (int j : chain)
-    if (bends.empty() || world_length(pose, j, bends.back()) > 0) bends.push_back(j);
-  if (bends.size() < 3) return {};
-  std::size_t best = 0;
-  double longest = -1;
-  for (std::size_t i = 0; i + 2 < bends.size(); ++i) {
-    double length =
-        world_length(pose, bends[i], bends[i + 1]) + world_length(pose, bends[i + 1], bends[i + 2]);
-    if (length > longest) {
-      longest = length;
-      best = i;
-    }
-  }
+  const std::vector<int> limb = longest_limb(pose, chain);
+  if (limb.empty()) return {};
   Leg leg;
-  leg.hip = bends[best];
-  leg.knee = bends[best + 1];
-  leg.ankle = bends[best + 2];
-  if (best + 3 < bends.size()) leg.toe = bends[best + 3];
+  leg.hip = limb[0];
+  leg.knee = limb[1];
+  leg.ankle = limb[2];
+  if (limb.size() > 3) leg.toe = limb[3];
   return leg;
 }
 
@@ -197,8 +114,8 @@ std::vector<Leg> legs_by_geometry(const Skeleton& skeleton, const RestPose& pose
 std::vector<Leg> find_legs(const Skeleton& skeleton) {
   if (skeleton.joints.empty()) return {};
   RestPose pose = rest_pose(skeleton);
-  std::vector<Meaning> meanings;
-  for (const Joint& joint : skeleton.joints) meanings.push_back(meaning_of(joint.name));
+  std::vector<JointName> meanings;
+  for (const Joint& joint : skeleton.joints) meanings.push_back(read_joint_name(joint.name));
   std::vector<Leg> legs;
   for (Side side : {Side::left, Side::right})
     if (auto leg = named_leg(skeleton, meanings, pose, side)) legs.push_back(*leg);

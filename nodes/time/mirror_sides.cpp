@@ -5,6 +5,7 @@
 
 #include "graph/diagnostic.h"
 #include "nodes/motion/elementary.h"
+#include "nodes/node_params.h"
 #include "nodes/time/mirror.h"
 
 namespace kinegraph {
@@ -211,11 +212,7 @@ Sides find_sides(const Skeleton& skeleton, const std::vector<std::string>& pairs
       alone.push_back(skeleton.joints[j].name);
   }
   if (!alone.empty()) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min<std::size_t>(alone.size(), 8); ++i)
-      text += (i ? ", " : "") + alone[i];
-    if (alone.size() > 8) text += fmt::format(" and {} more", alone.size() - 8);
-    work.report(warning("no-mirror-partner", fmt::format("no joint on the other side belongs to {}", text))
+    work.report(warning("no-mirror-partner", fmt::format("no joint on the other side belongs to {}", listed(alone)))
                     .at_param("pairs")
                     .hinting("name pairs as LEFT=RIGHT"));
   }
