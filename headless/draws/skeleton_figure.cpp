@@ -11,36 +11,6 @@ namespace kinegraph {
 
 namespace {
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
-
-// What a joint's name says of its side: LeftArm, arm_L, L_Arm, lfemur.
-Side named_side(std::string_view name) {
-  auto text = lower(name);
-  if (text.find("left") != std::string::npos) return Side::left;
-  if (text.find("right") != std::string::npos) return Side::right;
-  auto marked = [&](char letter, char capital) {
-    std::string_view t = text;
-    std::string first{letter, '_'}, last{'_', letter}, dotted{'.', letter};
-    if (t.starts_with(first) || t.ends_with(last) || t.ends_with(dotted)) return true;
-    if (name.size() > 1 && name[0] == capital && std::isupper(static_cast<unsigned char>(name[1])))
-      return true;
-    if (name[0] != letter) return false;
-    if (name.size() > 1 && std::isupper(static_cast<unsigned char>(name[1]))) return true;
-    for (auto bone : {"femur", "tibia", "foot", "toes", "clavicle", "humerus", "radius", "wrist", "hand",
-                      "fingers", "thumb", "hipjoint", "hip", "knee", "ankle", "shoulder", "elbow", "collar"})
-      if (t.substr(1) == bone) return true;
-    return false;
-  };
-  if (name.empty()) return Side::middle;
-  if (marked('l', 'L')) return Side::left;
-  if (marked('r', 'R')) return Side::right;
-  return Side::middle;
-}
-
 // The convex hull of spots, clockwise on the page (Andrew's monotone chain).
 std::vector<Spot> hull_of(std::vector<Spot> spots) {
   std::sort(spots.begin(), spots.end(),
@@ -75,24 +45,18 @@ Figure::Figure(const Skeleton& skeleton) {
     int parent = skeleton.joints[joint].parent;
     below_[parent] = std::max(below_[parent], below_[joint] + skeleton.link_length(joint));
   }
-  if (auto legs = find_legs(skeleton); legs.size() == 2)
-    for (int joint = legs[0].hip; joint >= 0; joint = skeleton.joints[joint].parent)
-      if (skeleton.is_below(legs[1].hip, joint)) {
-        body_joint_ = joint;
-        break;
-      }
+  const Body body = find_body(skeleton);
+  if (!body.legs.empty()) body_joint_ = body.pelvis;
   for (int joint = 0; joint < skeleton.size(); ++joint)
     if (skeleton.is_below(joint, body_joint_)) joints_.push_back(joint);
   // A rest pose can be flat (all offsets along one axis): the longest way down is a height too.
   if (count > 0) height_ = std::max(height_, 1.2 * below_[body_joint_]);
   if (!(height_ > 1e-9)) height_ = 1;
   in_body_.assign(count, false);
-  find_sides(skeleton, rest);
-  find_body(skeleton, rest);
+  find_sides(skeleton, body);
+  find_trunk(skeleton, body, rest);
 
-  int head = -1;
-  for (int joint = 0; joint < skeleton.size() && head < 0; ++joint)
-    if (lower(skeleton.joints[joint].name).ends_with("head")) head = joint;
+  const int head = body.head;
   for (int joint : joints_) {
     if (joint == body_joint_) continue;
     if (in_body_[joint] || skeleton.link_length(joint) < 0.003 * height_) continue;
@@ -124,13 +88,9 @@ Figure::Figure(const Skeleton& skeleton) {
     limbs_.push_back({{head, 0.15 * tip, 0.04 * height_}, {head, tip, 0.04 * height_}, head, true});
   }
 
-  for (const auto& leg : find_legs(skeleton)) feet_.push_back(leg.toe >= 0 ? leg.toe : leg.ankle);
-  for (int joint = 0; joint < skeleton.size(); ++joint) {
-    auto name = lower(skeleton.joints[joint].name);
-    bool taken =
-        std::any_of(hands_.begin(), hands_.end(), [&](int hand) { return side(hand) == side(joint); });
-    if ((name.ends_with("hand") || name.ends_with("wrist")) && !taken) hands_.push_back(joint);
-  }
+  for (const Leg& leg : body.legs) feet_.push_back(leg.toe >= 0 ? leg.toe : leg.ankle);
+  for (const Arm& arm : body.arms)
+    if (arm.hand >= 0) hands_.push_back(arm.hand);
 }
 
 // Thicker the more there is below: hips over knees over ankles, arms over fingers.
@@ -139,37 +99,21 @@ double Figure::radius_at(int joint) const {
          (0.008 + 0.032 * std::min(1.0, below_[static_cast<std::size_t>(joint)] / (0.55 * height_)));
 }
 
-void Figure::find_sides(const Skeleton& skeleton, const RestPose& rest) {
-  for (int joint = 0; joint < skeleton.size(); ++joint)
-    sides_.push_back(named_side(skeleton.joints[joint].name));
-  bool told = std::any_of(sides_.begin(), sides_.end(), [](Side side) { return side != Side::middle; });
-  for (int joint = 0; joint < skeleton.size(); ++joint) {
-    if (told) {
-      int parent = skeleton.joints[joint].parent;
-      if (sides_[joint] == Side::middle && parent >= 0) sides_[joint] = sides_[parent];
-      continue;
-    }
-    double across = rest.positions[joint].x - rest.positions[0].x;
-    if (std::abs(across) > 0.02 * height_) sides_[joint] = across > 0 ? Side::left : Side::right;
-  }
+void Figure::find_sides(const Skeleton& skeleton, const Body& body) {
+  for (const Joint& joint : skeleton.joints) sides_.push_back(read_joint_name(joint.name).side);
+  const auto mark = [&](int joint, bool left) {
+    if (joint >= 0 && sides_[joint] == Side::middle) sides_[joint] = left ? Side::left : Side::right;
+  };
+  for (const Leg& leg : body.legs) mark(leg.hip, leg.left);
+  for (const Arm& arm : body.arms) mark(arm.clavicle >= 0 ? arm.clavicle : arm.upper, arm.left);
+  for (int joint = 1; joint < skeleton.size(); ++joint)
+    if (sides_[joint] == Side::middle) sides_[joint] = sides_[skeleton.joints[joint].parent];
 }
 
-void Figure::find_body(const Skeleton& skeleton, const RestPose& rest) {
-  auto legs = find_legs(skeleton);
-  if (legs.size() != 2 || legs[0].hip < 0 || legs[1].hip < 0) return;
-  // The shoulders: the first joint on each side, above the hips, that stands off the middle and carries an
-  // arm.
-  int shoulders[2] = {-1, -1};
-  double middle = (rest.positions[legs[0].hip].x + rest.positions[legs[1].hip].x) / 2;
-  for (int joint = 0; joint < skeleton.size(); ++joint) {
-    if (sides_[joint] == Side::middle || skeleton.is_below(joint, legs[0].hip) ||
-        skeleton.is_below(joint, legs[1].hip))
-      continue;
-    int& shoulder = shoulders[sides_[joint] == Side::left ? 0 : 1];
-    bool stands_off = std::abs(rest.positions[joint].x - middle) > 0.05 * height_;
-    if (shoulder < 0 && stands_off && below_[joint] > 0.2 * height_) shoulder = joint;
-  }
-  if (shoulders[0] < 0 || shoulders[1] < 0) return;
+void Figure::find_trunk(const Skeleton& skeleton, const Body& body, const RestPose& rest) {
+  const auto& legs = body.legs;
+  if (legs.size() != 2 || body.arms.size() != 2) return;
+  const int shoulders[2] = {body.arms[0].upper, body.arms[1].upper};
   std::vector<int> spine;  // from the root up to where the arms part
   for (int joint = shoulders[0]; joint >= body_joint_; joint = skeleton.joints[joint].parent)
     if (skeleton.is_below(shoulders[1], joint)) spine.insert(spine.begin(), joint);

@@ -6,12 +6,12 @@
 
 #include "headless/draws/camera.h"
 #include "headless/draws/canvas.h"
+#include "nodes/motion/body.h"
+#include "nodes/motion/joint_names.h"
 #include "nodes/motion/kinematics.h"
 #include "nodes/motion/skeleton.h"
 
 namespace kinegraph {
-
-enum class Side { left, right, middle };
 
 // What is drawn for a skeleton, found once for all its poses.
 class Figure {
@@ -52,8 +52,8 @@ class Figure {
     std::vector<Ball> balls;
     int joint;
   };
-  void find_sides(const Skeleton& skeleton, const RestPose& rest);
-  void find_body(const Skeleton& skeleton, const RestPose& rest);
+  void find_sides(const Skeleton& skeleton, const Body& body);
+  void find_trunk(const Skeleton& skeleton, const Body& body, const RestPose& rest);
   double radius_at(int joint) const;
 
   double height_ = 1;

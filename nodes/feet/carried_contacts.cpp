@@ -46,9 +46,9 @@ Contacts carried_contacts(const Contacts& contacts, const Motion& motion, Work& 
   const WorldMotion world = world_motion(motion, work);
   std::vector<const FootPoint*> from;
   for (FootPoint& point : out.points) {
-    const auto found = std::find_if(contacts.points.begin(), contacts.points.end(), [&](const FootPoint& one) {
-      return one.left == point.left && one.part == point.part;
-    });
+    const auto found =
+        std::find_if(contacts.points.begin(), contacts.points.end(),
+                     [&](const FootPoint& one) { return one.left == point.left && one.part == point.part; });
     from.push_back(found == contacts.points.end() ? nullptr : &*found);
     point.planted = from.back() ? from.back()->planted : std::vector<bool>(contacts.frames);
     for (const Run& run : runs_of(point.planted)) {

@@ -26,6 +26,7 @@ NodeType detect_contacts_node() {
   const DetectContactsParams defaults;
   NodeType type;
   type.name = "DetectContacts";
+  type.code_version = 2;
   type.category = "feet";
   type.help = "Finds when heels and balls of the feet are planted, also where they slide a little.";
   type.source = "Kovar, Schreiner, Gleicher 2002, section 3";

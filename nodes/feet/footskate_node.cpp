@@ -48,6 +48,7 @@ NodeType footskate_node() {
   const FootskateParams defaults;
   NodeType type;
   type.name = "Footskate";
+  type.code_version = 2;
   type.category = "feet";
   type.help =
       "Holds planted feet on their places: the root helps a little, legs stretch a little, and nothing pops.";

@@ -142,7 +142,7 @@ Body find_body(const Skeleton& skeleton) {
   for (Side side : {Side::left, Side::right})
     if (auto arm = named_arm(skeleton, names, side)) body.arms.push_back(*arm);
   if (body.arms.empty()) body.arms = arms_by_geometry(skeleton, pose, body.legs);
-  body.head = first_of(names, Side::none, BodyPart::head);
+  body.head = first_of(names, Side::middle, BodyPart::head);
 
   int chest = -1;
   for (const Arm& arm : body.arms) {
@@ -158,7 +158,7 @@ Body find_body(const Skeleton& skeleton) {
     body.pelvis = body.pelvis < 0 ? above : common_ancestor(skeleton, body.pelvis, above);
   }
   if (body.pelvis >= 0 && top >= 0) body.pelvis = common_ancestor(skeleton, body.pelvis, top);
-  if (body.pelvis < 0) body.pelvis = std::max(first_of(names, Side::none, BodyPart::pelvis), 0);
+  if (body.pelvis < 0) body.pelvis = std::max(first_of(names, Side::middle, BodyPart::pelvis), 0);
   if (top < 0 || !skeleton.is_below(top, body.pelvis)) return body;
 
   body.spine = chain_between(skeleton, body.pelvis, top);

@@ -78,7 +78,7 @@ Side side_letter_of(std::string_view token, std::size_t& at) {
     at = token.size() - 1;
     return side(last);
   }
-  return Side::none;
+  return Side::middle;
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ JointName read_joint_name(std::string_view name) {
       continue;
     }
     std::size_t at = 0;
-    if (const Side side = side_letter_of(token, at); side != Side::none) {
+    if (const Side side = side_letter_of(token, at); side != Side::middle) {
       out.side = side;
       token.erase(at, 1);
     }
@@ -118,12 +118,12 @@ JointName read_joint_name(std::string_view name) {
   }
   // A lone l or r in front: only where what is left stands beside the middle, as in lfemur.
   const bool at_front = !out.word.empty() && (out.word.front() == 'l' || out.word.front() == 'r');
-  if (out.side == Side::none && at_front && stands_beside(out.word.substr(1)) && !stands_beside(out.word) &&
+  if (out.side == Side::middle && at_front && stands_beside(out.word.substr(1)) && !stands_beside(out.word) &&
       middle_part(out.word) == BodyPart::none) {
     out.side = out.word.front() == 'l' ? Side::left : Side::right;
     out.word.erase(0, 1);
   }
-  out.part = out.side == Side::none ? middle_part(out.word) : limb_part(out.word);
+  out.part = out.side == Side::middle ? middle_part(out.word) : limb_part(out.word);
   return out;
 }
 

@@ -6,7 +6,7 @@
 
 namespace kinegraph {
 
-enum class Side { none, left, right };
+enum class Side { middle, left, right };
 
 // `shoulder` is the collar bone in some conventions and the upper arm in others; `wrist` the hand, or what
 // stands before it.
@@ -29,7 +29,7 @@ enum class BodyPart {
 };
 
 struct JointName {
-  Side side = Side::none;
+  Side side = Side::middle;
   BodyPart part = BodyPart::none;
   // Lower-case letters and digits, without namespace, prefixes of rigs and side: "upleg", "index1".
   std::string word;

@@ -179,10 +179,11 @@ class Pairing {
     std::string hint = suggestion(name, names_of(skeleton));
     if (other.find(name) >= 0)
       hint = fmt::format("{} is a joint of the other side: FROM is the motion's, TO the target's", name);
-    throw Failure(error("unknown-joint", fmt::format("\"{}\": the {} has no joint \"{}\"", entry, which, name))
-                      .at_param(param)
-                      .at_joint(name)
-                      .hinting(hint));
+    throw Failure(
+        error("unknown-joint", fmt::format("\"{}\": the {} has no joint \"{}\"", entry, which, name))
+            .at_param(param)
+            .at_joint(name)
+            .hinting(hint));
   }
 
   Diagnostic no_common_joint() const {
@@ -191,9 +192,10 @@ class Pairing {
                          listed(names_of(skeleton)), body.pelvis < 0 ? ", in which no body is seen" : "");
     };
     const bool unseen = out_.source.pelvis < 0 || out_.target.pelvis < 0;
-    return error(unseen ? "no-body" : "no-common-joint",
-                 fmt::format("nothing tells which joints belong together: the motion has {}; the target has {}",
-                             what(source_, out_.source), what(target_, out_.target)))
+    return error(
+               unseen ? "no-body" : "no-common-joint",
+               fmt::format("nothing tells which joints belong together: the motion has {}; the target has {}",
+                           what(source_, out_.source), what(target_, out_.target)))
         .at_port(out_.target.pelvis < 0 ? "target" : "motion")
         .hinting("name the joints that belong together with map, as FROM=TO; a camera or a prop has none");
   }
@@ -205,7 +207,8 @@ class Pairing {
       out_.source_pelvis = out_.source_of[pelvis];
       return;
     }
-    const auto first = std::find_if(out_.source_of.begin(), out_.source_of.end(), [](int i) { return i >= 0; });
+    const auto first =
+        std::find_if(out_.source_of.begin(), out_.source_of.end(), [](int i) { return i >= 0; });
     pelvis = static_cast<int>(first - out_.source_of.begin());
     out_.source_pelvis = *first;
   }

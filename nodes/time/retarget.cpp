@@ -91,9 +91,9 @@ class Frames {
       const Quat from = inverse(standing_.orientations[shared.below]),
                  to = inverse(standing_.orientations[shared.above]);
       for (std::size_t t = 0; t < frames; ++t)
-        turned_[j][t] = slerp(shared.share, followed(shared.below, t) * from,
-                              followed(shared.above, t) * to) *
-                        standing_.orientations[j];
+        turned_[j][t] =
+            slerp(shared.share, followed(shared.below, t) * from, followed(shared.above, t) * to) *
+            standing_.orientations[j];
     } else {
       const Quat kept = standing_turn(target_, standing_, j);
       for (std::size_t t = 0; t < frames; ++t)
@@ -132,8 +132,8 @@ class Frames {
 std::vector<Vec3> standing_offsets(const Motion& target, std::vector<bool>& moves) {
   std::vector<Vec3> offsets;
   for (int j = 0; j < target.joints(); ++j) {
-    const bool in_channels = j > 0 && target.frames() > 0 && target.translates(j) &&
-                             target.skeleton().link_length(j) == 0;
+    const bool in_channels =
+        j > 0 && target.frames() > 0 && target.translates(j) && target.skeleton().link_length(j) == 0;
     moves.push_back(in_channels);
     offsets.push_back(in_channels ? target.local_offset(j, 0) : target.skeleton().joints[j].offset);
   }
@@ -142,11 +142,12 @@ std::vector<Vec3> standing_offsets(const Motion& target, std::vector<bool>& move
 
 void warn_not_upright(const StandingPose& pose, const char* port, Work& work) {
   if (pose.upright) return;
-  work.report(warning("not-upright", fmt::format("the {} is upright neither at rest nor in any frame; what it "
-                                                 "does is aligned to the other as far as names go",
-                                                 port))
-                  .at_port(port)
-                  .hinting("if it lies on its side, its file has another axis up: set up of its Load"));
+  work.report(
+      warning("not-upright", fmt::format("the {} is upright neither at rest nor in any frame; what it "
+                                         "does is aligned to the other as far as names go",
+                                         port))
+          .at_port(port)
+          .hinting("if it lies on its side, its file has another axis up: set up of its Load"));
 }
 
 std::shared_ptr<const SourceFacts> facts_of(const Motion& target, const Motion& motion) {
@@ -177,8 +178,7 @@ RetargetResult retarget(const Motion& motion, const RetargetTarget& to, const Re
   const std::vector<Vec3> offsets = standing_offsets(target, moves);
   moves[0] = true;
   moves[out.pairs.target_pelvis] = true;
-  const auto reserved =
-      work.reserve(motion.frames() * skeleton.joints.size() * sizeof(Quat));
+  const auto reserved = work.reserve(motion.frames() * skeleton.joints.size() * sizeof(Quat));
   const Orientations turned =
       Frames(world, skeleton, target_stands.pose, out.pairs, plans, offsets).orientations(work);
 

@@ -8,9 +8,9 @@
 // where the joint above has it already, so that no twist comes in. So links point where the source's do, and
 // turns about their own axes are the source's.
 //
-// Links that are the shape of a body rather than its pose are not aligned: from the pelvis and the chest to the
-// limbs, and links of spine and shoulders that differ by over 30°. Feet are aligned by their soles: C turns
-// about up only, as the angle from ankle to toe depends on how high the ankle stands.
+// Links that are the shape of a body rather than its pose are not aligned: from the pelvis and the chest to
+// the limbs, and links of spine and shoulders that differ by over 30°. Feet are aligned by their soles: C
+// turns about up only, as the angle from ankle to toe depends on how high the ankle stands.
 #pragma once
 #include <optional>
 #include <string>

@@ -92,8 +92,8 @@ class Planning {
     return Kind::limb;
   }
 
-  // The joint at the end of the link that `j` turns: the nearest paired one below on both sides; -1 where that
-  // lies on it, as the link then has no direction.
+  // The joint at the end of the link that `j` turns: the nearest paired one below on both sides; -1 where
+  // that lies on it, as the link then has no direction.
   int next_of(int j, Kind kind) const {
     const int next = child_of(j, kind);
     if (next < 0) return -1;

@@ -17,7 +17,8 @@ std::optional<double> sole_of(const Character& character) {
   std::optional<double> low;
   for (const MeshPart& part : character.parts) {
     if (part.skin < 0) continue;
-    for (Vec3 vertex : posed_vertices(character, part, rest)) low = std::min(low.value_or(vertex.y), vertex.y);
+    for (Vec3 vertex : posed_vertices(character, part, rest))
+      low = std::min(low.value_or(vertex.y), vertex.y);
   }
   return low;
 }
@@ -38,14 +39,16 @@ NodeType retarget_node() {
   type.name = "Retarget";
   type.category = "time";
   type.help =
-      "Puts a motion on another skeleton: other names, other proportions, another rest pose. Links point where "
+      "Puts a motion on another skeleton: other names, other proportions, another rest pose. Links point "
+      "where "
       "the motion's do, and the path is scaled by the legs.";
   type.source = "Wu, On-line Motion Style Transfer, §8; Cao, Motion Editing With ICA, §5.2";
   type.keywords = {"retarget", "skeleton", "character", "transfer", "Mixamo", "rig", "map"};
   type.input("motion", {"Motion"}, "The motion.");
-  type.input("target", {"Motion", "Character"},
-             "Whose skeleton: a motion of which only the skeleton counts, or a skinned character, which can be "
-             "exported with the result.");
+  type.input(
+      "target", {"Motion", "Character"},
+      "Whose skeleton: a motion of which only the skeleton counts, or a skinned character, which can be "
+      "exported with the result.");
   type.output("motion", "Motion", "The motion on the target's skeleton.", "motion");
   type.param("map", list(text("")),
              "Joints that belong together, each as FROM=TO: a joint of the motion and one of the target. The "
@@ -67,9 +70,10 @@ NodeType retarget_node() {
     RetargetResult result = retarget(motion, target, params, work);
     const auto paired = std::count_if(result.pairs.source_of.begin(), result.pairs.source_of.end(),
                                       [](int i) { return i >= 0; });
-    work.report(info("retargeted", fmt::format("{} of the target's {} joints follow one of the motion's {}; "
-                                               "the path is scaled by {:.4f}",
-                                               paired, result.motion.joints(), motion.joints(), result.scale)));
+    work.report(
+        info("retargeted", fmt::format("{} of the target's {} joints follow one of the motion's {}; "
+                                       "the path is scaled by {:.4f}",
+                                       paired, result.motion.joints(), motion.joints(), result.scale)));
     compute.output("motion", std::move(result.motion));
   };
   return type;

@@ -121,9 +121,8 @@ class Placing {
     // The root stands to the hips, seen from above, as it does when the body stands; the pelvis moves against
     // it by what is left.
     const Pose& standing = target_.stands->pose;
-    const Vec3 from_hips =
-        standing.positions[0] -
-        hips_at(pairs_.target, pelvis, legs_, [&](int j) { return standing.positions[j]; });
+    const Vec3 from_hips = standing.positions[0] - hips_at(pairs_.target, pelvis, legs_,
+                                                           [&](int j) { return standing.positions[j]; });
     const int parent = skeleton.joints[pelvis].parent;
     for (std::size_t t = 0; t < frames_; ++t) {
       const Quat heading = world_.orientation(0)[t] * inverse(standing.orientations[0]);
@@ -149,8 +148,7 @@ class Placing {
     if (sole_) return *sole_;
     double low = 0;
     for (std::size_t k = 0; k < pairs_.target.legs.size(); ++k) {
-      const double own =
-          lowest_of_foot(*target_.skeleton, pairs_.target.legs[k], target_.stands->flat[k]);
+      const double own = lowest_of_foot(*target_.skeleton, pairs_.target.legs[k], target_.stands->flat[k]);
       low = k == 0 ? own : std::min(low, own);
     }
     return low;
@@ -210,16 +208,16 @@ class Placing {
           const double above = std::max(0.0, foot.source_height[p][t] - low[p]);
           const double weight = exponential(-(above / near) * (above / near));
           weights[t] += weight;
-          needs[t] += weight * (path.ground + under + foot.standing[p] + scale * above -
-                                foot.target_height[p][t]);
+          needs[t] +=
+              weight * (path.ground + under + foot.standing[p] + scale * above - foot.target_height[p][t]);
         }
       sum += needs[t] - weights[t] * scale * source_hips(t).y;
       total += weights[t];
     }
     const double offset = total > 0 ? sum / total : 0;
     for (std::size_t t = 0; t < frames_; ++t)
-      path.hips[t].y = (needs[t] + far_weight * (offset + scale * source_hips(t).y)) /
-                       (weights[t] + far_weight);
+      path.hips[t].y =
+          (needs[t] + far_weight * (offset + scale * source_hips(t).y)) / (weights[t] + far_weight);
   }
 
   const RootSource& source_;

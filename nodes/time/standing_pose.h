@@ -10,7 +10,7 @@
 namespace kinegraph {
 
 struct StandingPose {
-  Pose pose;  // world
+  Pose pose;                         // world
   std::optional<std::size_t> frame;  // none = the rest pose
   bool upright = false;              // within 50° at spine and legs
   std::optional<double> facing;      // rad about up, 0 = +z, towards +x; none = no left and right
