@@ -7,6 +7,7 @@
 
 #include "graph/diagnostic.h"
 #include "nodes/motion/elementary.h"
+#include "nodes/node_params.h"
 #include "nodes/time/retarget_links.h"
 #include "nodes/time/retarget_root.h"
 
@@ -150,6 +151,22 @@ void warn_not_upright(const StandingPose& pose, const char* port, Work& work) {
           .hinting("if it lies on its side, its file has another axis up: set up of its Load"));
 }
 
+void tell_shapes(const std::vector<LinkPlan>& plans, const Skeleton& skeleton, Work& work) {
+  std::vector<std::string> names;
+  double largest = 0;
+  for (std::size_t j = 0; j < plans.size(); ++j) {
+    if (plans[j].shape == 0) continue;
+    names.push_back(skeleton.joints[j].name);
+    largest = std::max(largest, plans[j].shape);
+  }
+  if (names.empty()) return;
+  work.report(
+      info("shape-kept",
+           fmt::format("links of the two bodies differ by up to {:.0f}° as they stand, which is taken "
+                       "for their shape; turned as the motion does, but not to its direction: {}",
+                       largest * degrees_per_radian, listed(names))));
+}
+
 std::shared_ptr<const SourceFacts> facts_of(const Motion& target, const Motion& motion) {
   auto facts = std::make_shared<SourceFacts>(*without_read(target.shared_source()));
   facts->frame_time = motion.source().frame_time > 0 ? motion.source().frame_time : 1 / motion.fps();
@@ -172,6 +189,7 @@ RetargetResult retarget(const Motion& motion, const RetargetTarget& to, const Re
   if (out.pairs.target.pelvis >= 0) warn_not_upright(target_stands, "target", work);
   const std::vector<LinkPlan> plans =
       plan_links(from_skeleton, skeleton, out.pairs, source_stands, target_stands);
+  tell_shapes(plans, skeleton, work);
   for (const LinkPlan& plan : plans) out.link_to.push_back(plan.to);
 
   std::vector<bool> moves;

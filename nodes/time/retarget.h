@@ -43,7 +43,7 @@ struct RetargetResult {
 // The pelvis' path is the source's, times the scale, from the same place; its height is what puts feet at
 // `scale` times the source's clearances. Where the target's root is not the pelvis, the root goes below it on
 // the ground and heads where it does. Joints without partners stay as the target stands. Throws Failure as
-// pair_joints, and "no-frames". Warns as pair_joints; "not-upright".
+// pair_joints. Warns as pair_joints; "not-upright". Info: "shape-kept", naming links that aren't aligned.
 RetargetResult retarget(const Motion& motion, const RetargetTarget& target, const RetargetParams& params,
                         Work& work);
 

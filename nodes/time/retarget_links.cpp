@@ -49,6 +49,8 @@ class Planning {
           aligned[j] = turned * aligned[j];
           plan.to = next;
           plan.source_to = source_next;
+        } else {
+          plan.shape = turn(turned);
         }
       }
       plan.follow = inverse(way(a_, plan.source)) * aligned[j] * facing_ * way(b_, j);

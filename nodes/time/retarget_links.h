@@ -13,6 +13,7 @@ struct LinkPlan {
   Quat follow;      // O_t = O_s follow
   // The aligned link: to this joint of the target, whose partner is `source_to`; -1 = none.
   int to = -1, source_to = -1;
+  double shape = 0;  // rad by which a link differs that is left as the target stands
 };
 
 std::vector<LinkPlan> plan_links(const Skeleton& source, const Skeleton& target, const JointPairs& pairs,
