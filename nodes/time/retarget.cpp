@@ -48,10 +48,10 @@ std::vector<Shared> shares(const JointPairs& pairs) {
   return out;
 }
 
-class Frames {
+class Turning {
  public:
-  Frames(const WorldMotion& world, const Skeleton& target, const Pose& standing, const JointPairs& pairs,
-         const std::vector<LinkPlan>& plans, const std::vector<Vec3>& offsets)
+  Turning(const WorldMotion& world, const Skeleton& target, const Pose& standing, const JointPairs& pairs,
+          const std::vector<LinkPlan>& plans, const std::vector<Vec3>& offsets)
       : world_(world),
         target_(target),
         standing_(standing),
@@ -198,7 +198,7 @@ RetargetResult retarget(const Motion& motion, const RetargetTarget& to, const Re
   moves[out.pairs.target_pelvis] = true;
   const auto reserved = work.reserve(motion.frames() * skeleton.joints.size() * sizeof(Quat));
   const Orientations turned =
-      Frames(world, skeleton, target_stands.pose, out.pairs, plans, offsets).orientations(work);
+      Turning(world, skeleton, target_stands.pose, out.pairs, plans, offsets).orientations(work);
 
   Motion result(target.shared_skeleton(), facts_of(target, motion), motion.fps(), motion.frames(), moves);
   for (int j = 0; j < skeleton.size(); ++j) {
