@@ -4,8 +4,8 @@
 //   joint_positions FILE OUT.json [FIRST LAST [FPS]]
 //
 // OUT.json: {"joints": [names], "frames": n, "fps": f, "positions": [frame][joint][x, y, z], "height": h,
-// "offset_and_position": b}, lengths in the file's own unit. b: a joint has both an OFFSET and position
-// channels, which three.js adds up.
+// "unit": u, "offset_and_position": b}, lengths in the file's own unit of u metres. b: a joint has both an
+// OFFSET and position channels, which three.js adds up.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -55,6 +55,7 @@ nlohmann::json positions_of(const Motion& motion) {
           {"fps", motion.fps()},
           {"positions", frames},
           {"height", std::max(height_of(world), rest_height(motion.skeleton())) / unit},
+          {"unit", unit},
           {"offset_and_position", std::any_of(bvh.begin(), bvh.end(), has_offset_and_position)}};
 }
 
