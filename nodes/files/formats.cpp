@@ -7,6 +7,7 @@
 #include "nodes/files/bvh_read.h"
 #include "nodes/files/bvh_write.h"
 #include "nodes/files/c3d.h"
+#include "nodes/files/fbx_read.h"
 #include "nodes/files/gltf_file.h"
 #include "nodes/files/gltf_read.h"
 #include "nodes/files/gltf_write.h"
@@ -94,12 +95,18 @@ MotionFile read_csv_file(const FileToRead& file, Work& work) {
   return with_points(read_points_table(file.bytes, file.options, work));
 }
 
-MotionFile read_gltf_contents(const FileToRead& file, Work& work) {
-  GltfContents gltf = read_gltf(file.bytes, file.path, file.options, file.files, work);
+MotionFile with_contents(GltfContents gltf) {
   MotionFile result = with_motion(std::move(gltf.motion));
   if (gltf.character) result.contents.push_back({"character", gltf.character});
   result.companions = gltf.companions;
   return result;
+}
+
+MotionFile read_gltf_contents(const FileToRead& file, Work& work) {
+  return with_contents(read_gltf(file.bytes, file.path, file.options, file.files, work));
+}
+MotionFile read_fbx_file(const FileToRead& file, Work& work) {
+  return with_contents(read_fbx(file.bytes, file.options, file.files, work));
 }
 
 std::vector<std::string> companions_of_gltf(const std::string& path, const ReadOptions&, FileAccess& files) {
@@ -177,7 +184,7 @@ const std::vector<ReadFormat>& read_formats() {
       {"trc", "TRC markers", {"trc"}, read_trc_file},
       {"csv", "Points as a table", {"csv"}, read_csv_file},
       {"json", "An analysis that Export wrote", {"json"}, read_json_file},
-      {"fbx", "FBX", {"fbx"}},
+      {"fbx", "FBX: skeleton, animation, skin", {"fbx"}, read_fbx_file},
   };
   return formats;
 }

@@ -1,5 +1,4 @@
-// The file formats, each a line in a table: its key, endings, and functions. A format without a function is
-// known by name and refused with a list of what can be read or written.
+// The file formats, each a line in a table: its key, endings, and functions.
 #pragma once
 #include <string>
 #include <string_view>

@@ -108,7 +108,7 @@ struct Channel {
 }  // namespace
 
 GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFacts& facts,
-                   const ReadOptions& options, Work& work) {
+                   const ReadOptions& options, double rate, Work& work) {
   const tinygltf::Model& model = *file.model;
   const tinygltf::Animation* clip = chosen_clip(model, options.clip);
   const auto source = std::make_shared<const SourceFacts>(facts);
@@ -137,7 +137,7 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
     work.report(info("no-clip", "the file has no animation; the motion is one frame at rest"));
   }
   const bool cut = options.range.start != 0 || options.range.end || options.drop_rest_frame;
-  double fps = options.fps > 0 && !cut ? options.fps : rate_of_keys(times);
+  double fps = options.fps > 0 && !cut ? options.fps : rate > 0 ? rate : rate_of_keys(times);
   if (fps == 0) {
     fps = 60;
     work.report(info("resampled", "the keys lie on no whole frame rate; the clip is sampled at 60"));

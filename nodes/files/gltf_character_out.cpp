@@ -30,39 +30,6 @@ void drop_weights(Json::Object& attributes) {
               : std::next(one);
 }
 
-// A vertex's influences, the largest first, their sum 1, unused ones zero; as many sets of four as are used.
-void add_weights(GltfOut& out, Json::Object& attributes, const MeshPart& part) {
-  const std::size_t width = at(part.influences);
-  std::vector<std::vector<std::pair<double, std::uint32_t>>> all(part.vertices());
-  std::size_t most = 1;
-  for (std::size_t v = 0; v < part.vertices(); ++v) {
-    auto& own = all[v];
-    double sum = 0;
-    for (std::size_t k = 0; k < width; ++k)
-      if (const double weight = part.weights[v * width + k]; weight > 0) {
-        own.emplace_back(weight, part.joints[v * width + k]);
-        sum += weight;
-      }
-    if (own.empty()) own.emplace_back(sum = 1, 0);
-    std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (auto& [weight, joint] : own) weight /= sum;
-    most = std::max(most, own.size());
-  }
-  drop_weights(attributes);
-  for (std::size_t set = 0; 4 * set < most; ++set) {
-    std::vector<std::uint32_t> joints(4 * part.vertices());
-    std::vector<float> weights(4 * part.vertices());
-    for (std::size_t v = 0; v < all.size(); ++v)
-      for (std::size_t k = 0; k < 4 && 4 * set + k < all[v].size(); ++k) {
-        weights[4 * v + k] = static_cast<float>(all[v][4 * set + k].first);
-        joints[4 * v + k] = weights[4 * v + k] > 0 ? all[v][4 * set + k].second : 0;
-      }
-    attributes["JOINTS_" + std::to_string(set)] = out.add_joints(joints);
-    attributes["WEIGHTS_" + std::to_string(set)] =
-        out.add_floats(weights, "VEC4", false, GltfTarget::vertices);
-  }
-}
-
 // Targets of a primitive from number `first` on.
 void add_targets(GltfOut& out, int mesh, int primitive, const MeshPart& part, std::size_t first) {
   Json::Array names, added;
@@ -114,6 +81,49 @@ void take_from(Json& owner, const char* list, int node) {
 
 }  // namespace
 
+void add_weights(GltfOut& out, Json& primitive, const MeshPart& part) {
+  Json::Object& attributes = attributes_of(primitive);
+  const std::size_t width = at(part.influences);
+  std::vector<std::vector<std::pair<double, std::uint32_t>>> all(part.vertices());
+  std::size_t most = 1;
+  for (std::size_t v = 0; v < part.vertices(); ++v) {
+    auto& own = all[v];
+    double sum = 0;
+    for (std::size_t k = 0; k < width; ++k)
+      if (const double weight = part.weights[v * width + k]; weight > 0) {
+        own.emplace_back(weight, part.joints[v * width + k]);
+        sum += weight;
+      }
+    if (own.empty()) own.emplace_back(sum = 1, 0);
+    std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (auto& [weight, joint] : own) weight /= sum;
+    most = std::max(most, own.size());
+  }
+  drop_weights(attributes);
+  for (std::size_t set = 0; 4 * set < most; ++set) {
+    std::vector<std::uint32_t> joints(4 * part.vertices());
+    std::vector<float> weights(4 * part.vertices());
+    for (std::size_t v = 0; v < all.size(); ++v)
+      for (std::size_t k = 0; k < 4 && 4 * set + k < all[v].size(); ++k) {
+        weights[4 * v + k] = static_cast<float>(all[v][4 * set + k].first);
+        joints[4 * v + k] = weights[4 * v + k] > 0 ? all[v][4 * set + k].second : 0;
+      }
+    attributes["JOINTS_" + std::to_string(set)] = out.add_joints(joints);
+    attributes["WEIGHTS_" + std::to_string(set)] =
+        out.add_floats(weights, "VEC4", false, GltfTarget::vertices);
+  }
+}
+
+void add_geometry(GltfOut& out, Json& primitive, const MeshPart& part) {
+  Json::Object& attributes = attributes_of(primitive);
+  attributes["POSITION"] = out.add_floats(part.positions, "VEC3", true, GltfTarget::vertices);
+  if (!part.normals.empty())
+    attributes["NORMAL"] = out.add_floats(part.normals, "VEC3", false, GltfTarget::vertices);
+  if (!part.texcoords.empty())
+    attributes["TEXCOORD_0"] = out.add_floats(part.texcoords, "VEC2", false, GltfTarget::vertices);
+  primitive.object()["indices"] = out.add_indices(part.triangles);
+}
+
 void put_matrix(std::vector<float>& out, const Affine& map) {
   for (std::size_t j = 0; j < 4; ++j)
     for (std::size_t i = 0; i < 4; ++i)
@@ -143,7 +153,7 @@ std::vector<int> repair_skins(GltfOut& out, const Character& character) {
     node_of_part.push_back(part.source_node);
     if (part.skin < 0 || part.source_node < 0) continue;
     if (done.insert({part.source_mesh, part.source_primitive}).second)
-      add_weights(out, attributes_of(primitive_of(out, part.source_mesh, part.source_primitive)), part);
+      add_weights(out, primitive_of(out, part.source_mesh, part.source_primitive), part);
     // A skinned mesh doesn't follow its node, so that node may as well stand in the scene.
     int& now = moved[at(part.source_node)];
     if (now < 0) {
@@ -208,18 +218,10 @@ std::vector<int> add_parts(GltfOut& out, const Character& character, const std::
       out.list("meshes").push_back(std::move(mesh));
     }
     Json& primitive = primitive_of(out, p, 0);
-    Json::Object& attributes = attributes_of(primitive);
-    if (part.source_mesh < 0) {
-      attributes["POSITION"] = out.add_floats(part.positions, "VEC3", true, GltfTarget::vertices);
-      if (!part.normals.empty())
-        attributes["NORMAL"] = out.add_floats(part.normals, "VEC3", false, GltfTarget::vertices);
-      if (!part.texcoords.empty())
-        attributes["TEXCOORD_0"] = out.add_floats(part.texcoords, "VEC2", false, GltfTarget::vertices);
-      primitive.object()["indices"] = out.add_indices(part.triangles);
-    }
+    if (part.source_mesh < 0) add_geometry(out, primitive, part);
     const Json* had = primitive.find("targets");
     const std::size_t count = had && had->is_array() ? had->array().size() : 0;
-    if (part.skin >= 0) add_weights(out, attributes, part);
+    if (part.skin >= 0) add_weights(out, primitive, part);
     if (!part.morphs.empty()) add_targets(out, p, 0, part, count);
     Json::Object node;
     node["name"] = part.name;

@@ -10,6 +10,11 @@ namespace kinegraph {
 // As glTF stores it: columns one after the other.
 void put_matrix(std::vector<float>& out, const Affine& map);
 
+// Positions, normals, texture coordinates and triangles of a primitive.
+void add_geometry(GltfOut& out, Json& primitive, const MeshPart& part);
+// A vertex's influences, the largest first, their sum 1, unused ones zero; as many sets of four as are used.
+void add_weights(GltfOut& out, Json& primitive, const MeshPart& part);
+
 // Morph targets that a part has beyond those of its source mesh.
 void add_new_morphs(GltfOut& out, const Character& character);
 // Takes the weights of skinned parts out, before what is left is carried over: repair_skins writes them anew.

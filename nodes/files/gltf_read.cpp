@@ -9,15 +9,17 @@
 namespace kinegraph {
 
 GltfContents read_gltf(std::string_view bytes, const std::string& path, const ReadOptions& options,
-                       FileAccess& files, Work& work) {
+                       FileAccess& files, Work& work, const GltfOrigin& origin) {
   const GltfFile file = read_gltf_file(bytes, path, files);
   const LengthUnit unit = unit_from_param(options.unit, unit_of_metres(1));
   const GltfNodes nodes = gltf_nodes(file, unit.metres, work);
   SourceFacts facts;
-  facts.format = "gltf";
-  facts.unit = unit.metres;
-  facts.unit_name = unit.name;
-  GltfClip clip = gltf_clip(file, nodes, facts, options, work);
+  const LengthUnit told = origin.unit.metres > 0 ? origin.unit : unit;
+  facts.format = origin.format;
+  facts.unit = told.metres;
+  facts.unit_name = told.name;
+  facts.up = origin.up;
+  GltfClip clip = gltf_clip(file, nodes, facts, options, origin.rate, work);
   GltfContents out{std::move(clip.motion), nullptr, file.companions};
   Character character = gltf_character(file, nodes, unit.metres);
   if (character.parts.empty()) return out;

@@ -7,6 +7,7 @@
 
 #include "graph/compute.h"
 #include "graph/work.h"
+#include "nodes/files/length_unit.h"
 #include "nodes/files/read_options.h"
 #include "nodes/motion/character.h"
 
@@ -17,8 +18,15 @@ struct GltfContents {
   std::shared_ptr<const Character> character;  // null: the file has no triangles
   std::vector<std::string> companions;
 };
+// Of a file that another format was turned into: what the motion remembers of that.
+struct GltfOrigin {
+  std::string format = "gltf";
+  LengthUnit unit{0, ""};  // 0: the option's, else metres
+  UpAxis up = UpAxis::y;
+  double rate = 0;  // frames per second on which all keys lie; 0 = found
+};
 // Throws Failure ("bad-gltf", "truncated", "unknown-clip", "bad-range").
 GltfContents read_gltf(std::string_view bytes, const std::string& path, const ReadOptions& options,
-                       FileAccess& files, Work& work);
+                       FileAccess& files, Work& work, const GltfOrigin& origin = {});
 
 }  // namespace kinegraph

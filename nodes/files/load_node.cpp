@@ -60,7 +60,7 @@ NodeType load_node() {
              "The .asf of an .amc. Empty: of the same name, else of the name up to its last _, else the "
              "folder's only one.");
   type.param("clip", text(""),
-             "Of a glTF with several animations: a name, else an index from 0. Empty: the first.");
+             "Of a glTF or FBX with several animations: a name, else an index from 0. Empty: the first.");
   type.param("range", range(), "The file's frames to keep, from the first up to but without the second.");
   type.param("rate", number(defaults.rate).between(0.001, 100000).in("frames/s").slider(24, 240),
              "Frames a second of a file that doesn't say, such as .amc.");

@@ -37,8 +37,7 @@ std::string list_of(const std::vector<std::string_view>& words) {
 
 std::string readable() {
   std::vector<std::string_view> keys;
-  for (const ReadFormat& format : read_formats())
-    if (format.read) keys.push_back(format.key);
+  for (const ReadFormat& format : read_formats()) keys.push_back(format.key);
   return "formats that can be read: " + list_of(keys);
 }
 
@@ -102,10 +101,6 @@ MotionFile read_motion_file(const std::string& path, const ReadOptions& options,
     if (!format)
       throw Failure(error("unknown-format", "neither its name nor its content tells the file's format")
                         .hinting("set format; " + readable())
-                        .at_param("format"));
-    if (!format->read)
-      throw Failure(error("no-reader", fmt::format("files of the format {} can't be read", format->key))
-                        .hinting(readable())
                         .at_param("format"));
     MotionFile file = format->read({path, *bytes, options, files}, work);
     file.format = format->key;

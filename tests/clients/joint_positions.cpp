@@ -2,10 +2,12 @@
 // that ask Blender and three.js the same, for tests/clients/run:
 //
 //   joint_positions FILE OUT.json [FIRST LAST [FPS]]
+//   joint_positions FILE OUT.json --vertices EVERY      also of the vertices of its character, every so many
+//   frames
 //
 // OUT.json: {"joints": [names], "frames": n, "fps": f, "positions": [frame][joint][x, y, z], "height": h,
-// "unit": u, "offset_and_position": b}, lengths in the file's own unit of u metres. b: a joint has both an
-// OFFSET and position channels, which three.js adds up.
+// "unit": u, "offset_and_position": b, "vertices": {frame: [[x, y, z]]}}, lengths in the file's own unit of u
+// metres. b: a joint has both an OFFSET and position channels, which three.js adds up.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -14,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nodes/files/motion_file.h"
+#include "nodes/motion/character.h"
 #include "nodes/motion/kinematics.h"
 #include "tests/nodes/files/plain_files.h"
 
@@ -59,6 +62,20 @@ nlohmann::json positions_of(const Motion& motion) {
           {"offset_and_position", std::any_of(bvh.begin(), bvh.end(), has_offset_and_position)}};
 }
 
+nlohmann::json vertices_of(const Motion& motion, const Character& character, std::size_t every) {
+  auto frames = nlohmann::json::object();
+  for (std::size_t t = 0; t < motion.frames(); t += every) {
+    auto& all = frames[std::to_string(t)] = nlohmann::json::array();
+    const Pose pose = pose_for(character, motion, t);
+    for (const MeshPart& part : character.parts)
+      for (Vec3 p : posed_vertices(character, part, pose)) {
+        p = p / motion.source().unit;
+        all.push_back({p.x, p.y, p.z});
+      }
+  }
+  return frames;
+}
+
 }  // namespace
 }  // namespace kinegraph
 
@@ -70,13 +87,18 @@ int main(int argc, char** argv) {
   }
   try {
     ReadOptions options;
-    if (argc > 4) options.range = {std::atoll(argv[3]), std::atoll(argv[4])};
+    const std::size_t every = argc > 4 && std::string(argv[3]) == "--vertices" ? std::atoll(argv[4]) : 0;
+    if (argc > 4 && every == 0) options.range = {std::atoll(argv[3]), std::atoll(argv[4])};
     if (argc > 5) options.fps = std::atof(argv[5]);
     PlainFiles files;
     Alone work;
     const MotionFile file = read_motion_file(std::filesystem::absolute(argv[1]), options, files, work);
     if (!file.motion()) throw Failure(error("no-motion", "no motion in " + std::string(argv[1])));
-    std::ofstream(argv[2]) << positions_of(*file.motion());
+    nlohmann::json out = positions_of(*file.motion());
+    if (const auto* character = dynamic_cast<const Character*>(file.find("character"));
+        character && every > 0)
+      out["vertices"] = vertices_of(*file.motion(), *character, every);
+    std::ofstream(argv[2]) << out;
   } catch (const Failure& problem) {
     std::cerr << problem.what() << "\n";
     return 1;

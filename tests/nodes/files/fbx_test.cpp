@@ -1,0 +1,147 @@
+// FBX: pivots, pre-rotations, axes and units; or, built without Assimp, what to do instead.
+#include <gtest/gtest.h>
+
+#include "nodes/files/fbx_read.h"
+#include "nodes/motion/elementary.h"
+#include "nodes/motion/kinematics.h"
+#include "tests/nodes/files/plain_files.h"
+
+namespace kinegraph {
+namespace {
+
+// Hips, Leg and Foot at 30 frames a second. Hips: turned by 90° about Z beforehand. Leg: turns by 0, 45 and
+// 90° about Z, behind 30° about X, round a pivot 5 above it.
+std::string text_fbx(int up, int front, int front_sign, double unit) {
+  auto limb = [](const char* id, const char* name, const char* more) {
+    return std::string("Model: ") + id + ", \"Model::" + name +
+           "\", \"LimbNode\" {\nVersion: 232\nProperties70:  {\n"
+           "P: \"RotationActive\", \"bool\", \"\", \"\",1\nP: \"InheritType\", \"enum\", \"\", \"\",1\n" +
+           more + "}\nShading: T\nCulling: \"CullingOff\"\n}\n";
+  };
+  auto curve = [](const char* id, const char* values) {
+    return std::string("AnimationCurve: ") + id +
+           ", \"AnimCurve::\", \"\" {\nDefault: 0\nKeyVer: 4009\nKeyTime: *3 {\na: "
+           "0,1539538600,3079077200\n}\n"
+           "KeyValueFloat: *3 {\na: " +
+           values +
+           "\n}\nKeyAttrFlags: *1 {\na: 24840\n}\nKeyAttrDataFloat: *4 {\na: 0,0,255790911,0\n}\n"
+           "KeyAttrRefCount: *1 {\na: 3\n}\n}\n";
+  };
+  auto setting = [](const char* name, int value) {
+    return std::string("P: \"") + name + "\", \"int\", \"Integer\", \"\"," + std::to_string(value) + "\n";
+  };
+  return "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\nFBXHeaderVersion: 1003\nFBXVersion: 7400\n}\n"
+         "GlobalSettings:  {\nVersion: 1000\nProperties70:  {\n" +
+         setting("UpAxis", up) + setting("UpAxisSign", 1) + setting("FrontAxis", front) +
+         setting("FrontAxisSign", front_sign) + setting("CoordAxis", 0) + setting("CoordAxisSign", 1) +
+         "P: \"UnitScaleFactor\", \"double\", \"Number\", \"\"," + std::to_string(unit) +
+         "\nP: \"TimeMode\", \"enum\", \"\", \"\",6\n}\n}\nObjects:  {\n" +
+         limb("1", "Hips",
+              "P: \"PreRotation\", \"Vector3D\", \"Vector\", \"\",0,0,90\n"
+              "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",10,100,5\n") +
+         limb("2", "Leg",
+              "P: \"RotationPivot\", \"Vector3D\", \"Vector\", \"\",0,5,0\n"
+              "P: \"PreRotation\", \"Vector3D\", \"Vector\", \"\",30,0,0\n"
+              "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,-40,0\n") +
+         limb("3", "Foot", "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,-35,0\n") +
+         "AnimationStack: 10, \"AnimStack::Swing\", \"\" {\n}\nAnimationLayer: 11, \"AnimLayer::Base\", \"\" "
+         "{\n}\n"
+         "AnimationCurveNode: 12, \"AnimCurveNode::R\", \"\" {\nProperties70:  {\n"
+         "P: \"d|X\", \"Number\", \"\", \"A\",0\nP: \"d|Y\", \"Number\", \"\", \"A\",0\n"
+         "P: \"d|Z\", \"Number\", \"\", \"A\",0\n}\n}\n" +
+         curve("13", "0,0,0") + curve("14", "0,0,0") + curve("15", "0,45,90") +
+         "}\nConnections:  {\nC: \"OO\",1,0\nC: \"OO\",2,1\nC: \"OO\",3,2\nC: \"OO\",11,10\nC: \"OO\",12,11\n"
+         "C: \"OP\",12,2, \"Lcl Rotation\"\nC: \"OP\",13,12, \"d|X\"\nC: \"OP\",14,12, \"d|Y\"\n"
+         "C: \"OP\",15,12, \"d|Z\"\n}\n";
+}
+
+GltfContents read(const std::string& bytes, Work& work, ReadOptions options = {}) {
+  PlainFiles files;
+  return read_fbx(bytes, options, files, work);
+}
+
+// Whether this program can: the tests below say what it does then.
+bool without_assimp() {
+  Alone work;
+  try {
+    read("nothing", work);
+  } catch (const Failure& failure) {
+    return failure.diagnostic().code == "no-fbx";
+  }
+  return false;
+}
+
+TEST(Fbx, IsRefusedWithWhatToDoWhereItCannotBeRead) {
+  Alone work;
+  try {
+    read("Kaydara FBX Binary  ", work);
+    ADD_FAILURE();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.diagnostic().code, without_assimp() ? "no-fbx" : "bad-fbx");
+    EXPECT_NE(failure.diagnostic().hint.find("GLB"), std::string::npos);
+  }
+}
+
+Vec3 foot_in_file(double degrees) {
+  const Quat hips = axis_angle({0, 0, 1}, 90 / degrees_per_radian);
+  const Quat leg =
+      axis_angle({1, 0, 0}, 30 / degrees_per_radian) * axis_angle({0, 0, 1}, degrees / degrees_per_radian);
+  const Vec3 pivot{0, 5, 0};
+  const Vec3 in_hips = Vec3{0, -40, 0} + pivot + rotate(leg, Vec3{0, -35, 0} - pivot);
+  return Vec3{10, 100, 5} + rotate(hips, in_hips);
+}
+
+TEST(Fbx, MultipliesPivotsAndPreRotationsOut) {
+  if (without_assimp()) GTEST_SKIP() << "built without Assimp";
+  Alone work;
+  const Motion motion = read(text_fbx(1, 2, 1, 1), work).motion;
+  ASSERT_EQ(motion.frames(), 3u);
+  EXPECT_EQ(motion.fps(), 30);
+  EXPECT_EQ(motion.source().unit_name, "cm");
+  EXPECT_EQ(motion.source().format, "fbx");
+  const int foot = motion.skeleton().find("Foot");
+  const int leg = motion.skeleton().find("Leg");
+  ASSERT_GE(leg, 0);
+  for (std::size_t t = 0; t < 3; ++t) {
+    const Vec3 expected = 0.01 * foot_in_file(45.0 * double(t));
+    const WorldMotion world = world_motion(motion);
+    Vec3 place = foot >= 0 ? world.position(foot)[t] : Vec3{};
+    for (const EndSite& end : motion.skeleton().ends)
+      if (foot < 0 && end.name == "Foot") place = point_at(world, end.joint, end.offset, t);
+    EXPECT_LT(norm(place - expected), 2e-6) << t;
+  }
+  for (const Joint& joint : motion.skeleton().joints)
+    EXPECT_EQ(joint.name.find("$AssimpFbx$"), std::string::npos) << joint.name;
+}
+
+TEST(Fbx, IsTurnedAndScaledAsItsSettingsSay) {
+  if (without_assimp()) GTEST_SKIP() << "built without Assimp";
+  Alone work;
+  const Motion y = read(text_fbx(1, 2, 1, 1), work).motion, z = read(text_fbx(2, 1, -1, 2.54), work).motion;
+  EXPECT_EQ(z.source().unit_name, "in");
+  EXPECT_EQ(z.source().up, UpAxis::z);
+  const Pose a = pose_at(y, 1), b = pose_at(z, 1);
+  ASSERT_EQ(a.positions.size(), b.positions.size());
+  for (std::size_t j = 0; j < a.positions.size(); ++j) {
+    const Vec3 p = 2.54 * a.positions[j];
+    EXPECT_LT(norm(b.positions[j] - Vec3{p.x, p.z, -p.y}), 1e-5) << j;
+  }
+  ReadOptions metres;
+  metres.unit = Json("m");
+  EXPECT_LT(
+      norm(pose_at(read(text_fbx(1, 2, 1, 1), work, metres).motion, 1).positions[0] - 100 * a.positions[0]),
+      1e-3);
+}
+
+TEST(Fbx, GivesTheClipThatIsNamed) {
+  if (without_assimp()) GTEST_SKIP() << "built without Assimp";
+  Alone work;
+  ReadOptions options;
+  options.clip = "Swing";
+  EXPECT_EQ(read(text_fbx(1, 2, 1, 1), work, options).motion.frames(), 3u);
+  options.clip = "Swung";
+  EXPECT_THROW(read(text_fbx(1, 2, 1, 1), work, options), Failure);
+}
+
+}  // namespace
+}  // namespace kinegraph
