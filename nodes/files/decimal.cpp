@@ -62,6 +62,19 @@ struct PairTable {
 constexpr PairTable pairs;
 
 char* write_integer(char* at, std::uint64_t value) {
+  if (value < 10) {
+    *at = static_cast<char>('0' + value);
+    return at + 1;
+  }
+  if (value < 100) {
+    std::memcpy(at, pairs.digits + 2 * value, 2);
+    return at + 2;
+  }
+  if (value < 1000) {
+    *at = static_cast<char>('0' + value / 100);
+    std::memcpy(at + 1, pairs.digits + 2 * (value % 100), 2);
+    return at + 3;
+  }
   char buffer[20];
   char* first = buffer + 20;
   while (value >= 100) {
@@ -80,6 +93,28 @@ char* write_integer(char* at, std::uint64_t value) {
   return at + count;
 }
 
+// `scaled` / 10^decimals; the divisor is a constant, which makes the division a multiplication.
+template <int decimals>
+char* write_scaled(char* at, std::uint64_t scaled) {
+  constexpr std::uint64_t scale = decimal_detail::power_of_ten(decimals);
+  at = write_integer(at, scaled / scale);
+  if (decimals == 0) return at;
+  *at++ = '.';
+  auto part = static_cast<std::uint32_t>(scaled % scale);
+  int left = decimals;
+  for (; left >= 2; left -= 2) {
+    std::memcpy(at + left - 2, pairs.digits + 2 * (part % 100), 2);
+    part /= 100;
+  }
+  if (left) *at = static_cast<char>('0' + part);
+  return at + decimals;
+}
+
+using WriteScaled = char* (*)(char*, std::uint64_t);
+constexpr WriteScaled write_scaled_by[] = {write_scaled<0>, write_scaled<1>, write_scaled<2>, write_scaled<3>,
+                                           write_scaled<4>, write_scaled<5>, write_scaled<6>, write_scaled<7>,
+                                           write_scaled<8>, write_scaled<9>};
+
 }  // namespace
 
 char* write_fixed(char* at, double value, int decimals) {
@@ -94,18 +129,7 @@ char* write_fixed(char* at, double value, int decimals) {
     if (std::fabs(fraction - 0.5) > doubt) {
       std::uint64_t rounded = floor + (fraction > 0.5);
       if (value < 0 && rounded) *at++ = '-';
-      auto scale = static_cast<std::uint64_t>(decimal_detail::powers_of_ten[decimals]);
-      std::uint64_t whole = rounded / scale, part = rounded % scale;
-      at = write_integer(at, whole);
-      if (decimals == 0) return at;
-      *at++ = '.';
-      int left = decimals;
-      for (; left >= 2; left -= 2) {
-        std::memcpy(at + left - 2, pairs.digits + 2 * (part % 100), 2);
-        part /= 100;
-      }
-      if (left) *at = static_cast<char>('0' + part);
-      return at + decimals;
+      return decimals == 6 ? write_scaled<6>(at, rounded) : write_scaled_by[decimals](at, rounded);
     }
   }
   auto written = std::to_chars(at, at + fixed_room, value, std::chars_format::fixed, decimals);

@@ -189,6 +189,9 @@ std::array<double, 3> to_euler(Quat q, std::string_view axes, const double* near
   // The same rotation twice: (α, β, γ) and (α + π, π - β, γ + π), each with whole turns.
   std::array<double, 3> one{nearest_turn(first, wished[0]), nearest_turn(middle, wished[1]),
                             nearest_turn(parity * last, wished[2])};
+  // The first and last angle of the other lie π away from these, so it can't be nearer where these are near.
+  const double to_first = pi - std::fabs(one[0] - wished[0]), to_last = pi - std::fabs(one[2] - wished[2]);
+  if (distance2(one, wished) < 0.99 * (to_first * to_first + to_last * to_last)) return one;
   std::array<double, 3> other{nearest_turn(first + pi, wished[0]), nearest_turn(pi - middle, wished[1]),
                               nearest_turn(parity * last + pi, wished[2])};
   if (sum_length < singular || difference_length < singular) {

@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -67,9 +68,10 @@ RunningProgram ProgramTest::start(std::vector<std::string> arguments, std::vecto
 
 Ran ProgramTest::wait(const RunningProgram& running) {
   int status = 0;
-  waitpid(running.process, &status, 0);
+  rusage used{};
+  wait4(running.process, &status, 0, &used);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), bytes_of(running.out),
-          bytes_of(running.err)};
+          bytes_of(running.err), static_cast<std::size_t>(used.ru_maxrss) * 1024};
 }
 
 Ran ProgramTest::run(std::vector<std::string> arguments, std::vector<std::string> environment,

@@ -14,6 +14,7 @@ namespace kinegraph {
 struct Ran {
   int exit = -1;  // 128 + N where signal N ended it
   std::string out, err;
+  std::size_t peak = 0;  // bytes resident at the most
 };
 
 struct RunningProgram {

@@ -166,6 +166,34 @@ TEST(MocapFiles, OfOneTrialAgreeInAmcAndBvh) {
   }
 }
 
+// An .amc becomes a BVH that holds the same motion: every joint of every frame within 1e-5 m.
+TEST(MocapFiles, InAmcMoveTheSameAsBvh) {
+  KINEGRAPH_NEEDS_MOCAP();
+  for (const Loads& one : files_that_load()) {
+    if (!std::string(one.file).ends_with(".amc")) continue;
+    Alone work;
+    const MotionFile amc = load(mocap(one.file), work);
+    PlainFiles files;
+    files.made["/it.bvh"] = write_bvh(*amc.motion(), {}, work);
+    ReadOptions same_unit;
+    same_unit.unit = Json(amc.motion()->source().unit);
+    const MotionFile bvh = read_motion_file("/it.bvh", same_unit, files, work);
+    const Motion &was = *amc.motion(), &is = *bvh.motion();
+    ASSERT_EQ(was.frames(), is.frames()) << one.file;
+    ASSERT_EQ(was.joints(), is.joints()) << one.file;
+    const WorldMotion before = world_motion(was), after = world_motion(is);
+    double farthest = 0;
+    for (int j = 0; j < was.joints(); ++j) {
+      const int k = is.skeleton().find(was.skeleton().joints[j].name);
+      ASSERT_GE(k, 0) << was.skeleton().joints[j].name;
+      for (std::size_t t = 0; t < was.frames(); ++t)
+        farthest = std::max(farthest, norm(before.position(j)[t] - after.position(k)[t]));
+    }
+    EXPECT_LT(farthest, 1e-5) << one.file;
+    EXPECT_NEAR(was.fps(), is.fps(), 1e-9) << one.file;
+  }
+}
+
 // Every BVH goes back out with its channels, OFFSETs, End Sites, names, order and frame time; angles within
 // 1e-5 degrees as they were read, positions within 1e-6 of the unit.
 TEST_P(MocapBvh, GoesBackOutAsItWasRead) {
