@@ -41,7 +41,7 @@ int convert_command(const Program& program, const ConvertArguments& arguments) {
   EncodedFile encoded;
   try {
     const MotionFile file = read_motion_file(in, read, files, work);
-    encoded = encode_motion_file(out, "auto", file.contents, write, work);
+    encoded = encode_motion_file(out, "auto", contents_for(out, file.contents, work), write, work);
   } catch (const Failure& failure) {
     Diagnostic problem = failure.diagnostic();
     if (problem.file == in) problem.file = arguments.in;

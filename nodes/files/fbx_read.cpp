@@ -180,8 +180,10 @@ void add_meshes(GltfOut& out, const FbxScene& scene) {
         joints.push_back(bone.node);
         put_matrix(binds, bone.inverse_bind);
       }
-      out.list("skins").push_back(Json::Object{
-          {"joints", std::move(joints)}, {"inverseBindMatrices", out.add_floats(binds, "MAT4", false)}});
+      out.list("skins").push_back(
+          Json::Object{{"name", mesh.part.name},
+                       {"joints", std::move(joints)},
+                       {"inverseBindMatrices", out.add_floats(binds, "MAT4", false)}});
       node["skin"] = out.list("skins").size() - 1;
     }
     const std::size_t index = out.list("nodes").size();

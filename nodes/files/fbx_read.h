@@ -11,6 +11,8 @@ namespace kinegraph {
 // frame. Unit and axes are what the file's settings say, or the options. Reports "sparse-keys" where Assimp's
 // straight lines between keys stand for curves, and "clips" where there are several. Throws Failure
 // ("bad-fbx", "no-fbx", and what glTF throws).
+// Assimp works in single precision with the C library's functions: near half turns that costs some 1e-4 of
+// the height, and last bits may differ between CPUs.
 GltfContents read_fbx(std::string_view bytes, const ReadOptions& options, FileAccess& files, Work& work);
 
 }  // namespace kinegraph

@@ -119,13 +119,49 @@ MotionFile read_motion_file(const std::string& path, const ReadOptions& options,
   }
 }
 
+namespace {
+
+const WriteFormat* write_format(std::string_view key) {
+  for (const WriteFormat& one : write_formats())
+    if (one.key == key) return &one;
+  return nullptr;
+}
+bool holds(const WriteFormat& format, std::string_view port) {
+  return std::find(format.ports.begin(), format.ports.end(), port) != format.ports.end();
+}
+
+}  // namespace
+
+std::vector<FileContent> contents_for(const std::string& path, const std::vector<FileContent>& contents,
+                                      Work& work) {
+  const WriteFormat* format = write_format(write_format_of(path));
+  if (!format) return contents;
+  std::vector<FileContent> fit;
+  std::string left;
+  for (const FileContent& content : contents) {
+    if (holds(*format, content.port)) {
+      fit.push_back(content);
+    } else {
+      left += (left.empty() ? "" : " and ") + content.port;
+    }
+  }
+  if (fit.empty() && holds(*format, "points"))
+    for (const FileContent& content : contents)
+      if (content.port == "motion") {
+        fit.push_back({"points", points_of_motion(*content.value)});
+        left = "what is not its joints' places";
+      }
+  if (fit.empty()) return contents;
+  if (!left.empty())
+    work.report(info("left-out", fmt::format("{} can't hold {}, which is left out", format->key, left)));
+  return fit;
+}
+
 EncodedFile encode_motion_file(const std::string& path, std::string_view key,
                                const std::vector<FileContent>& contents, const WriteOptions& options,
                                Work& work) {
   const std::string wanted = key == "auto" ? write_format_of(path) : std::string(key);
-  const WriteFormat* format = nullptr;
-  for (const WriteFormat& one : write_formats())
-    if (one.key == wanted) format = &one;
+  const WriteFormat* format = write_format(wanted);
   if (contents.empty())
     throw Failure(error("nothing-to-write", "no input is linked").hinting("link what is to be written"));
   if (!format)
@@ -133,7 +169,7 @@ EncodedFile encode_motion_file(const std::string& path, std::string_view key,
                       .hinting("set format or another ending; " + writable(contents))
                       .at_param("file"));
   for (const FileContent& content : contents)
-    if (std::find(format->ports.begin(), format->ports.end(), content.port) == format->ports.end())
+    if (!holds(*format, content.port))
       throw Failure(
           error("wrong-content", fmt::format("the format {} can't hold {}", format->key, content.port))
               .hinting(writable(contents))

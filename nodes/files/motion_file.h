@@ -47,6 +47,12 @@ struct EncodedFile {
   std::string bytes;
   std::vector<std::pair<std::string, std::string>> companions;  // name beside the file, bytes
 };
+// Those of a file's contents that a format can hold, for a person who only wants another format: what is left
+// out is told ("left-out"), and a motion becomes the points of its joints where the format knows none. All of
+// them where nothing fits: encode_motion_file then says so.
+std::vector<FileContent> contents_for(const std::string& path, const std::vector<FileContent>& contents,
+                                      Work& work);
+
 // `path` tells the format where it is "auto", and names companions. Throws Failure: "unknown-format",
 // "no-writer", "wrong-content" naming what the format can hold.
 EncodedFile encode_motion_file(const std::string& path, std::string_view format,

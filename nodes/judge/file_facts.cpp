@@ -7,6 +7,7 @@
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/files/rest_frame.h"
 #include "nodes/judge/other_programs.h"
+#include "nodes/motion/character.h"
 #include "nodes/motion/fill_gaps.h"
 #include "nodes/motion/kinematics.h"
 #include "nodes/time/trim.h"
@@ -132,6 +133,17 @@ PointsFacts points_facts(const Points& points) {
   return facts;
 }
 
+GltfInventory inventory_of(const Character& character) {
+  GltfInventory out;
+  for (const Skin& skin : character.skins)
+    out.skins.push_back(
+        {skin.name.empty() ? fmt::format("{}", out.skins.size()) : skin.name, skin.joints.size()});
+  for (const MeshPart& part : character.parts)
+    out.meshes.push_back(
+        {part.name, 1, part.vertices(), part.triangles.size() / 3, part.morphs.size(), part.skin >= 0});
+  return out;
+}
+
 Diagnostics of_gltf(const GltfInventory& gltf) {
   Diagnostics found;
   if (gltf.uneven_vertices)
@@ -186,6 +198,8 @@ FileFacts facts_of(const MotionFile& file, const std::string& path, FileAccess& 
       facts.told.push_back(std::move(problem));
       ++facts.non_finite;
     }
+  if (const auto* character = dynamic_cast<const Character*>(file.find("character")))
+    facts.gltf = inventory_of(*character);
   if (file.format == "gltf") {
     facts.gltf = gltf_inventory(*files.read(path), path, files);
     for (Diagnostic& one : of_gltf(*facts.gltf)) facts.told.push_back(std::move(one));

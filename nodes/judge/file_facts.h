@@ -44,7 +44,7 @@ struct FileFacts {
   std::string up;                    // "Y" or "Z"
   std::optional<MotionFacts> motion;
   std::optional<PointsFacts> points;
-  std::optional<GltfInventory> gltf;
+  std::optional<GltfInventory> gltf;  // of an FBX its skins and meshes alone
   std::vector<Break> breaks;
   std::size_t non_finite = 0;
   Diagnostics told;  // what reading reported, then what other programs will stumble over

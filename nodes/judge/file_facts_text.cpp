@@ -70,7 +70,7 @@ std::string points_text(const Points& points, const PointsFacts& facts) {
   return out;
 }
 
-std::string gltf_text(const GltfInventory& gltf) {
+std::string gltf_text(const GltfInventory& gltf, bool whole_file) {
   std::vector<std::string> clips, skins, meshes;
   for (const auto& clip : gltf.clips)
     clips.push_back(
@@ -83,8 +83,11 @@ std::string gltf_text(const GltfInventory& gltf) {
   auto list = [](const std::vector<std::string>& names) {
     return names.empty() ? std::string("none") : fmt::format("{}: {}", names.size(), some_of(names));
   };
-  return line("clips", list(clips)) + line("skins", list(skins)) + line("meshes", list(meshes)) +
-         line("look", fmt::format("{} materials, {} images", gltf.materials, gltf.textures));
+  std::string out = line("skins", list(skins)) + line("meshes", list(meshes));
+  if (whole_file)
+    out = line("clips", list(clips)) + out +
+          line("look", fmt::format("{} materials, {} images", gltf.materials, gltf.textures));
+  return out;
 }
 
 std::string breaks_text(const FileFacts& facts, const std::vector<std::string>& names) {
@@ -147,7 +150,7 @@ std::string facts_text(const MotionFile& file, const FileFacts& facts, const std
     out += points_text(*points, *facts.points);
     names = points->labels;
   }
-  if (facts.gltf) out += gltf_text(*facts.gltf);
+  if (facts.gltf) out += gltf_text(*facts.gltf, facts.format == "gltf");
   if (motion || points) out += breaks_text(facts, names);
   if (motion) out += '\n' + skeleton_tree(motion->skeleton());
   if (!facts.told.empty()) out += '\n';

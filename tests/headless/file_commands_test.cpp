@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/mocap.h"
 #include "tests/nodes/files/bvh_texts.h"
 
 namespace kinegraph {
@@ -76,6 +77,23 @@ TEST_F(FileCommands, ConvertChangesUnitAndRate) {
   EXPECT_NE(out.find("OFFSET 0 -80 10"), std::string::npos) << out;
   EXPECT_NE(out.find("Frames: 3\nFrame Time: 0.02\n"), std::string::npos) << out;
   EXPECT_NE(out.find("\n125.000000 200.000000 300.000000 "), std::string::npos) << out;
+}
+
+TEST_F(FileCommands, ConvertTakesWhatTheOtherFormatCanHold) {
+  // A motion becomes the points of its joints, and goes through all formats of points.
+  EXPECT_EQ(run("convert clip.bvh joints.csv --unit m", "2>&1").exit, 0);
+  for (const char* ending : {"c3d", "trc", "csv"}) {
+    EXPECT_EQ(run(std::string("convert joints.csv again.") + ending, "2>&1").exit, 0) << ending;
+    const Ran back = run(std::string("convert again.") + ending + " back.csv", "2>&1");
+    EXPECT_EQ(back.exit, 0) << back.output;
+  }
+  EXPECT_NE(bytes_of("back.csv").find("Leg.x"), std::string::npos);
+  // A skinned character's motion alone is what a BVH holds.
+  if (!std::filesystem::exists(mocap("gltf/Fox.glb"))) return;
+  const Ran fox = run("convert " + mocap("gltf/Fox.glb") + " fox.bvh", "2>&1");
+  EXPECT_EQ(fox.exit, 0) << fox.output;
+  EXPECT_NE(fox.output.find("bvh can't hold character"), std::string::npos) << fox.output;
+  EXPECT_EQ(bytes_of("fox.bvh").substr(0, 9), "HIERARCHY");
 }
 
 TEST_F(FileCommands, ConvertRefusesWhatItCannotDo) {

@@ -84,6 +84,44 @@ TEST(GltfOut, GivesTheSameMotionBackAndLeavesMeshAndSkinUntouched) {
   }
 }
 
+// The bytes of an accessor's bufferView.
+std::string view_of(GltfOut& out, const Json& accessor) {
+  const Json& one = out.list("accessors")[static_cast<std::size_t>(accessor.number())];
+  const Json& view = out.list("bufferViews")[static_cast<std::size_t>(one.find("bufferView")->number())];
+  const Json* offset = view.find("byteOffset");
+  return out.binary().substr(offset ? static_cast<std::size_t>(offset->number()) : 0,
+                             static_cast<std::size_t>(view.find("byteLength")->number()));
+}
+
+TEST(GltfOut, LeavesTheBytesOfMeshesAndSkinsUntouchedUnderANewMotion) {
+  KINEGRAPH_NEEDS_MOCAP();
+  for (const char* name : skinned) {
+    SCOPED_TRACE(name);
+    Alone work;
+    const MotionFile file = load(name, work);
+    const auto character = character_of(file);
+    GltfOut out = gltf_of(file.motion(), character.get(), {}, work);
+    std::size_t looked_at = 0;
+    auto expect_carried = [&](const Json& accessor) {
+      const std::string bytes = view_of(out, accessor);
+      bool found = false;
+      for (const std::string& buffer : character->source->buffers)
+        found = found || buffer.find(bytes) != std::string::npos;
+      EXPECT_TRUE(found) << "accessor " << accessor.number();
+      ++looked_at;
+    };
+    for (const Json& mesh : out.list("meshes"))
+      for (const Json& primitive : mesh.find("primitives")->array()) {
+        for (const auto& [attribute, accessor] : primitive.find("attributes")->object())
+          expect_carried(accessor);
+        if (const Json* indices = primitive.find("indices")) expect_carried(*indices);
+      }
+    for (const Json& skin : out.list("skins"))
+      if (const Json* binds = skin.find("inverseBindMatrices")) expect_carried(*binds);
+    EXPECT_GE(looked_at, 4u);
+  }
+}
+
 TEST(GltfOut, CarriesTheBytesOfBufferViewsAsTheyAre) {
   KINEGRAPH_NEEDS_MOCAP();
   Alone work;
