@@ -9,7 +9,7 @@
 // turns about their own axes are the source's.
 //
 // Links that are the shape of a body rather than its pose are not aligned: from the pelvis and the chest to
-// the limbs, and links of spine and shoulders that differ by over 30°. Feet are aligned by their soles: C
+// the limbs, and links of spine and shoulders that differ by over 40°. Feet are aligned by their soles: C
 // turns about up only, as the angle from ankle to toe depends on how high the ankle stands.
 #pragma once
 #include <optional>

@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double shape_limit = 30 / degrees_per_radian;
+constexpr double shape_limit = 40 / degrees_per_radian;
 
 enum class Kind { whole, middle, limb, foot };
 

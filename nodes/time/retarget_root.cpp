@@ -14,8 +14,11 @@ namespace {
 // Heel and ball of one leg on both sides.
 struct Feet {
   std::array<std::vector<double>, 2> source_height, target_height;  // world; the target's with its hips at 0
-  std::array<double, 2> standing{};  // how high they stand over the target's ground
   std::array<bool, 2> known{};
+  // How much higher each stands than the ball, or the ankle where no ball is known, with the sole flat.
+  std::array<double, 2> source_stands{}, target_stands{};
+  double target_footing = 0;  // world height of that ball or ankle as the target stands
+  std::size_t footing() const { return known[1] ? 1 : 0; }
 };
 
 double low_of(std::vector<double> heights) {
@@ -24,10 +27,11 @@ double low_of(std::vector<double> heights) {
   return *tenth;
 }
 
-const Leg* leg_on(const Body& body, bool left) {
-  for (const Leg& leg : body.legs)
-    if (leg.left == left) return &leg;
-  return nullptr;
+// Index of the body's leg on a side; their number: none.
+std::size_t leg_on(const Body& body, bool left) {
+  const auto found =
+      std::find_if(body.legs.begin(), body.legs.end(), [&](const Leg& leg) { return leg.left == left; });
+  return static_cast<std::size_t>(found - body.legs.begin());
 }
 
 bool has_legs(const JointPairs& pairs) {
@@ -43,18 +47,6 @@ Vec3 hips_at(const Body& body, int pelvis, bool legs, const At& at) {
 double ball_height(const Leg& leg, const WorldMotion& world, std::size_t t) {
   if (leg.toe >= 0) return world.position(leg.toe)[t].y;
   return point_at(world, leg.ankle, *leg.toe_tip, t).y;
-}
-
-// The lowest of a foot's joints and End Sites.
-double lowest_of_foot(const Skeleton& skeleton, const Leg& leg, const Pose& pose) {
-  double low = pose.positions[leg.ankle].y;
-  for (int j = leg.ankle + 1; j < skeleton.size(); ++j)
-    if (skeleton.is_below(j, leg.ankle)) low = std::min(low, pose.positions[j].y);
-  for (const EndSite& end : skeleton.ends)
-    if (skeleton.is_below(end.joint, leg.ankle))
-      low = std::min(low, pose.positions[end.joint].y +
-                              rotate(pose.orientations[end.joint], skeleton.above_scale * end.offset).y);
-  return low;
 }
 
 // Where the ground is under both bodies, and how the target's hips go over it.
@@ -90,8 +82,8 @@ class Placing {
     path.hips.resize(frames_);
     const Vec3 start = source_hips(0);
     for (std::size_t t = 0; t < frames_; ++t) path.hips[t] = start + scale * (source_hips(t) - start);
-    path.target_ground = target_ground();
-    if (const std::vector<Feet> feet = feet_on(path.target_ground); !feet.empty()) {
+    path.target_ground = sole_.value_or(0);
+    if (const std::vector<Feet> feet = both_feet(); !feet.empty()) {
       set_heights(feet, scale, path);
       return path;
     }
@@ -144,36 +136,31 @@ class Placing {
     return hips_at(pairs_.target, pairs_.target_pelvis, legs_, [&](int j) { return world_.position(j)[t]; });
   }
 
-  double target_ground() const {
-    if (sole_) return *sole_;
-    double low = 0;
-    for (std::size_t k = 0; k < pairs_.target.legs.size(); ++k) {
-      const double own = lowest_of_foot(*target_.skeleton, pairs_.target.legs[k], target_.stands->flat[k]);
-      low = k == 0 ? own : std::min(low, own);
-    }
-    return low;
-  }
-
-  std::vector<Feet> feet_on(double ground) const {
+  std::vector<Feet> both_feet() const {
     std::vector<Feet> all;
     if (!legs_) return all;
     for (std::size_t k = 0; k < pairs_.target.legs.size(); ++k) {
       const Leg& leg = pairs_.target.legs[k];
-      const Leg* from = leg_on(pairs_.source, leg.left);
-      if (!from) continue;
-      const Pose& flat = target_.stands->flat[k];
-      // In a frame of a motion each foot has its own ground.
-      const double own = target_.stands->frame ? lowest_of_foot(*target_.skeleton, leg, flat) : ground;
-      const auto ball = ball_of(leg, flat, target_.skeleton->above_scale);
+      const std::size_t i = leg_on(pairs_.source, leg.left);
+      if (i == pairs_.source.legs.size()) continue;
+      const Leg& from = pairs_.source.legs[i];
+      const Pose &own = target_.stands->flat[k], &theirs = source_.stands->flat[i];
+      const auto ball = ball_of(leg, own, target_.skeleton->above_scale);
+      const auto source_ball = ball_of(from, theirs, source_.skeleton->above_scale);
+      const double ankle = own.positions[leg.ankle].y;
       Feet feet;
-      feet.known = {true, ball && (from->toe >= 0 || from->toe_tip)};
-      feet.standing = {flat.positions[leg.ankle].y - own, ball ? ball->y - own : 0};
+      feet.known = {true, ball && source_ball};
+      feet.target_footing = feet.known[1] ? ball->y : ankle;
+      if (feet.known[1]) {
+        feet.target_stands[0] = ankle - ball->y;
+        feet.source_stands[0] = theirs.positions[from.ankle].y - source_ball->y;
+      }
       for (std::size_t t = 0; t < frames_; ++t) {
         const double base = target_hips(t).y;
-        feet.source_height[0].push_back(source_.world->position(from->ankle)[t].y);
+        feet.source_height[0].push_back(source_.world->position(from.ankle)[t].y);
         feet.target_height[0].push_back(world_.position(leg.ankle)[t].y - base);
         if (!feet.known[1]) continue;
-        feet.source_height[1].push_back(ball_height(*from, *source_.world, t));
+        feet.source_height[1].push_back(ball_height(from, *source_.world, t));
         feet.target_height[1].push_back(ball_height(leg, world_, t) - base);
       }
       all.push_back(std::move(feet));
@@ -196,7 +183,13 @@ class Placing {
     const double leg = leg_length(*source_.skeleton);
     // Joints of feet are a little above the ground, which is at 0 in most studios.
     path.ground = std::fabs(lowest) < 0.1 * leg ? std::min(0.0, lowest) : lowest;
-    const double under = sole_ ? 0 : scale * (lowest - path.ground);  // the joints' height over a sole unseen
+    // How high balls, or ankles, are over the ground they stand on; where the target has no mesh to tell, as
+    // high as the source's.
+    const auto source_footing = [&](const Feet& foot) { return low[foot.footing()] - path.ground; };
+    const auto target_footing = [&](const Feet& foot) {
+      return sole_ ? foot.target_footing - *sole_ : scale * source_footing(foot);
+    };
+    if (!sole_) path.target_ground = feet[0].target_footing - target_footing(feet[0]);
     const double near = 0.06 * leg, far_weight = 0.01;
 
     std::vector<double> weights(frames_), needs(frames_);
@@ -208,8 +201,10 @@ class Placing {
           const double above = std::max(0.0, foot.source_height[p][t] - low[p]);
           const double weight = exponential(-(above / near) * (above / near));
           weights[t] += weight;
-          needs[t] +=
-              weight * (path.ground + under + foot.standing[p] + scale * above - foot.target_height[p][t]);
+          const double over = foot.source_height[p][t] - path.ground - source_footing(foot) -
+                              foot.source_stands[p];  // how much higher than it stands
+          needs[t] += weight * (path.ground + target_footing(foot) + foot.target_stands[p] + scale * over -
+                                foot.target_height[p][t]);
         }
       sum += needs[t] - weights[t] * scale * source_hips(t).y;
       total += weights[t];

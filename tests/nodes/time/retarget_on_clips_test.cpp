@@ -1,0 +1,282 @@
+// Retarget between real skeletons: CMU's AMC and BVH, a game rig with twist bones, and glTF characters.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "nodes/feet/carried_contacts.h"
+#include "nodes/feet/footskate.h"
+#include "nodes/files/motion_file.h"
+#include "nodes/motion/character.h"
+#include "nodes/time/retarget.h"
+#include "tests/mocap.h"
+#include "tests/nodes/files/plain_files.h"
+#include "tests/nodes/time/retarget_measures.h"
+
+namespace kinegraph {
+namespace {
+
+JointRoles both_sides(JointRoles middle, const JointRoles& left, const std::string& l, const std::string& r) {
+  for (const auto& [role, name] : left) {
+    const auto at = name.find("@");
+    for (bool is_left : {true, false}) {
+      std::string own = name;
+      own.replace(at, 1, is_left ? l : r);
+      middle[role + (is_left ? ".l" : ".r")] = own;
+    }
+  }
+  return middle;
+}
+
+struct NamedBody {
+  std::string name;
+  Motion motion;
+  std::shared_ptr<const Character> character;
+  JointRoles roles;
+};
+
+NamedBody read_body(std::string name, const std::string& path, ReadOptions options, JointRoles roles) {
+  PlainFiles files;
+  Alone work;
+  const MotionFile file = read_motion_file(mocap(path), options, files, work);
+  NamedBody body{std::move(name), {}, {}, std::move(roles)};
+  body.motion = dynamic_cast<const Motion&>(*file.find("motion"));
+  if (const auto* character = file.find("character"))
+    body.character = std::make_shared<const Character>(dynamic_cast<const Character&>(*character));
+  return body;
+}
+
+JointRoles amc_roles() {
+  return both_sides({{"spine.1", "lowerback"},
+                     {"spine.2", "upperback"},
+                     {"spine.3", "thorax"},
+                     {"neck.1", "lowerneck"},
+                     {"neck.2", "upperneck"},
+                     {"head", "head"}},
+                    {{"clavicle", "@clavicle"},
+                     {"arm", "@humerus"},
+                     {"forearm", "@radius"},
+                     {"hand", "@wrist"},
+                     {"thigh", "@femur"},
+                     {"shin", "@tibia"},
+                     {"foot", "@foot"}},
+                    "l", "r");
+}
+JointRoles bvh_roles() {
+  return both_sides({{"spine.1", "LowerBack"},
+                     {"spine.2", "Spine"},
+                     {"spine.3", "Spine1"},
+                     {"neck.1", "Neck"},
+                     {"neck.2", "Neck1"},
+                     {"head", "Head"}},
+                    {{"clavicle", "@Shoulder"},
+                     {"arm", "@Arm"},
+                     {"forearm", "@ForeArm"},
+                     {"hand", "@Hand"},
+                     {"thigh", "@UpLeg"},
+                     {"shin", "@Leg"},
+                     {"foot", "@Foot"}},
+                    "Left", "Right");
+}
+JointRoles game_roles() {
+  return both_sides({{"spine.1", "CC_Base_Waist"},
+                     {"spine.2", "CC_Base_Spine01"},
+                     {"spine.3", "CC_Base_Spine02"},
+                     {"neck.1", "CC_Base_NeckTwist01"},
+                     {"neck.2", "CC_Base_NeckTwist02"},
+                     {"head", "CC_Base_Head"}},
+                    {{"clavicle", "CC_Base_@_Clavicle"},
+                     {"arm", "CC_Base_@_Upperarm"},
+                     {"forearm", "CC_Base_@_Forearm"},
+                     {"hand", "CC_Base_@_Hand"},
+                     {"thigh", "CC_Base_@_Thigh"},
+                     {"shin", "CC_Base_@_Calf"},
+                     {"foot", "CC_Base_@_Foot"}},
+                    "L", "R");
+}
+// CesiumMan has no names; its nodes by number.
+JointRoles cesium_roles() {
+  return {{"spine.1", "node11"},   {"spine.3", "node12"},   {"neck.1", "node19"}, {"head", "node20"},
+          {"arm.l", "node16"},     {"forearm.l", "node17"}, {"hand.l", "node18"}, {"arm.r", "node13"},
+          {"forearm.r", "node14"}, {"hand.r", "node15"},    {"thigh.l", "node7"}, {"shin.l", "node8"},
+          {"foot.l", "node9"},     {"thigh.r", "node3"},    {"shin.r", "node4"},  {"foot.r", "node5"}};
+}
+JointRoles knight_roles() {
+  return both_sides({{"spine.1", "spine"}, {"spine.3", "chest"}, {"head", "head"}},
+                    {{"arm", "upperarm.@"},
+                     {"forearm", "lowerarm.@"},
+                     {"hand", "wrist.@"},
+                     {"thigh", "upperleg.@"},
+                     {"shin", "lowerleg.@"},
+                     {"foot", "foot.@"}},
+                    "l", "r");
+}
+
+NamedBody amc(const std::string& clip = "16_31") {
+  return read_body("AMC", "cmu/asfamc/" + clip + ".amc", {}, amc_roles());
+}
+NamedBody bvh(const std::string& clip = "08_01") {
+  ReadOptions drop;
+  drop.drop_rest_frame = true;
+  return read_body("BVH", "cmu/bvh/" + clip + ".bvh", drop, bvh_roles());
+}
+NamedBody game_rig() {
+  return read_body("game rig", "cmu/bvh_other/007_01_iclone.bvh", {}, game_roles());
+}
+NamedBody cesium_man() {
+  return read_body("CesiumMan", "gltf/CesiumMan.glb", {}, cesium_roles());
+}
+NamedBody knight() {
+  ReadOptions walking;
+  walking.clip = "Walking_A";
+  return read_body("Knight", "gltf/KayKit_Knight.glb", walking, knight_roles());
+}
+
+Motion put(const Motion& motion, const Motion& target) {
+  Alone work;
+  return retarget(motion, {&target, {}}, {}, work).motion;
+}
+Motion with_clean_feet(const Motion& motion, const Contacts& contacts) {
+  Alone work;
+  return clean_footskate(motion, carried_contacts(contacts, motion, work), {},
+                         std::vector<double>(motion.frames(), 1), work)
+      .motion;
+}
+
+// What the sentences ask for, with much to spare: 5°, 10° and 2 cm/s.
+void expect_follows(const NamedBody& from, const Contacts& contacts, const NamedBody& to, bool walks) {
+  SCOPED_TRACE(from.name + " to " + to.name);
+  const Motion made = put(from.motion, to.motion);
+  const LinkErrors links = link_errors(from.motion, from.roles, made, to.roles);
+  EXPECT_GE(links.links, 9);
+  EXPECT_LT(links.direction, 0.01) << links.worst_direction;
+  EXPECT_LT(links.twist, 1) << links.worst_twist;
+  const FootErrors source = foot_errors(from.motion, contacts);
+  const FootErrors feet = foot_errors(with_clean_feet(made, contacts), contacts);
+  EXPECT_GE(feet.plants, walks ? 9 : 0);
+  EXPECT_LT(feet.skate, 0.001);
+  EXPECT_LT(feet.largest, 0.02);
+  EXPECT_LT(feet.off_ground, std::max(0.03, 1.3 * source.off_ground));
+}
+
+TEST(RetargetOnClips, keeps_directions_turns_and_plants_from_each_body_to_each_other) {
+  KINEGRAPH_NEEDS_MOCAP();
+  // CesiumMan and the knight walk on the spot, where no foot is planted: they also go with a real walk.
+  std::vector<NamedBody> all = {amc(), bvh(), game_rig(), cesium_man(), knight()};
+  // The link from a game rig's waist, 5 cm long, leans 40° back at rest: its body's shape ("shape-kept").
+  all[2].roles.erase("spine.1");
+  for (const NamedBody& walking : {cesium_man(), knight()}) {
+    Alone work;
+    const NamedBody of = amc("02_01");
+    const Contacts contacts = detect_contacts(of.motion, {}, work);
+    all.push_back(walking);
+    all.back().name += " as 02_01";
+    all.back().motion = with_clean_feet(put(of.motion, walking.motion), contacts);
+  }
+  for (const NamedBody& from : all) {
+    Alone work;
+    const Contacts contacts = detect_contacts(from.motion, {}, work);
+    const bool in_place = from.name == "CesiumMan" || from.name == "Knight";
+    for (const NamedBody& to : all)
+      if (&from != &to) expect_follows(from, contacts, to, !in_place);
+  }
+}
+
+TEST(RetargetOnClips, of_one_trial_the_amc_on_the_bvhs_skeleton_is_the_bvh) {
+  KINEGRAPH_NEEDS_MOCAP();
+  for (const char* clip : {"02_01", "09_06", "05_03"}) {
+    SCOPED_TRACE(clip);
+    const Motion truth = bvh(clip).motion;
+    const Motion made = put(amc(clip).motion, truth);
+    ASSERT_EQ(made.frames(), truth.frames());
+    const WorldMotion a = world_motion(made), b = world_motion(truth);
+    for (const char* name : {"Hips", "LeftUpLeg", "LeftLeg", "LeftFoot", "RightUpLeg", "RightLeg",
+                             "RightFoot", "LowerBack", "Spine", "Spine1", "LeftArm", "LeftForeArm",
+                             "LeftHand", "RightArm", "RightForeArm", "RightHand", "Head"}) {
+      const int j = truth.skeleton().find(name);
+      for (std::size_t t = 0; t < truth.frames(); t += 5) {
+        EXPECT_LT(turn(a.orientation(j)[t], b.orientation(j)[t]) * degrees_per_radian, 0.1) << name << t;
+        const Vec3 off = a.position(j)[t] - b.position(j)[t];
+        EXPECT_LT(norm(off), 0.005) << name << " " << t;
+      }
+    }
+  }
+}
+
+TEST(RetargetOnClips, any_clip_goes_onto_any_character) {
+  KINEGRAPH_NEEDS_MOCAP();
+  ReadOptions drop;
+  drop.drop_rest_frame = true;
+  ReadOptions z_up;
+  z_up.up = "z";
+  const std::vector<std::pair<std::string, ReadOptions>> clips = {{"cmu/bvh_daz/141_01.bvh", drop},
+                                                                  {"cmu/bvh_max/131_01.bvh", drop},
+                                                                  {"accad/Male1_B3_Walk.bvh", {}},
+                                                                  {"bandai/dataset-1_walk_old_001.bvh", {}},
+                                                                  {"m21/OLD-1.bvh", {}},
+                                                                  {"xia/strutting_01_000.bvh", {}},
+                                                                  {"odd/Boxing_Toes.bvh", {}},
+                                                                  {"odd/MS2_8Walk_M.bvh", {}},
+                                                                  {"odd/mixed_orders_test3.bvh", {}},
+                                                                  {"gltf/RiggedFigure.glb", {}},
+                                                                  {"gltf/rig_transfer_from_bvh.glb", {}},
+                                                                  {"fair/dab.bvh", z_up}};
+  const NamedBody to = cesium_man();
+  for (const auto& [path, options] : clips) {
+    SCOPED_TRACE(path);
+    const NamedBody from = read_body(path, path, options, {});
+    Alone work;
+    const RetargetResult made = retarget(from.motion, {&to.motion, {}}, {}, work);
+    EXPECT_FALSE(made.motion.non_finite());
+    // All of CesiumMan but its neck and lower back finds a partner.
+    const auto& of = made.pairs.source_of;
+    EXPECT_GE(std::count_if(of.begin(), of.end(), [](int i) { return i >= 0; }), 17);
+    for (const Diagnostic& one : work.reported) EXPECT_NE(one.code, "not-upright") << one.message;
+    // And the other way round.
+    const Motion back = put(to.motion, from.motion);
+    EXPECT_FALSE(back.non_finite());
+    const WorldMotion world = world_motion(back);
+    const Body body = find_body(back.skeleton());
+    ASSERT_GE(body.head, 0);
+    for (std::size_t t = 0; t < back.frames(); t += 7) {
+      const Vec3 up = world.position(body.head)[t] - world.position(body.pelvis)[t];
+      EXPECT_GT(up.y, 0.9 * norm(up));
+    }
+  }
+}
+
+TEST(RetargetOnClips, the_skin_follows_and_its_soles_stand_on_the_ground) {
+  KINEGRAPH_NEEDS_MOCAP();
+  const NamedBody walk = bvh();
+  const Contacts contacts = detect_contacts(walk.motion, {}, *std::make_unique<Alone>());
+  for (const NamedBody& to : {cesium_man(), knight()}) {
+    SCOPED_TRACE(to.name);
+    Alone work;
+    ASSERT_TRUE(to.character);
+    std::optional<double> sole;
+    const Pose rest = rest_pose_of(*to.character->skeleton);
+    const auto lowest = [&](const Pose& pose) {
+      double low = 1e9;
+      for (const MeshPart& part : to.character->parts)
+        if (part.skin >= 0)
+          for (Vec3 v : posed_vertices(*to.character, part, pose)) low = std::min(low, v.y);
+      return low;
+    };
+    const Motion target(to.character->skeleton, to.motion.shared_source(), 30, 0, {});
+    const Motion made =
+        with_clean_feet(retarget(walk.motion, {&target, lowest(rest)}, {}, work).motion, contacts);
+    double low = 0, high = -1;
+    for (std::size_t t = 0; t < made.frames(); t += 6) {
+      const double now = lowest(pose_for(*to.character, made, t));
+      low = std::min(low, now);
+      high = std::max(high, now);
+      printf("%s %zu %.3f\n", to.name.c_str(), t, now);
+    }
+    for (std::size_t t = 0; t < to.motion.frames(); t += 4)
+      printf("own %s %zu %.3f\n", to.name.c_str(), t, lowest(pose_for(*to.character, to.motion, t)));
+    EXPECT_GT(low, -0.03);
+    EXPECT_LT(high, 0.03);
+  }
+}
+
+}  // namespace
+}  // namespace kinegraph
