@@ -9,6 +9,7 @@
 #include "graph/edit.h"
 #include "graph/edit_draft.h"
 #include "graph/links.h"
+#include "graph/nested.h"
 #include "graph/variables.h"
 
 namespace kinegraph {
@@ -61,7 +62,7 @@ Document copied(const Document& document, const Registry& registry, const std::v
     part.nodes[name] = node;
     if (const auto entry = document.ui.nodes.find(name); entry != document.ui.nodes.end())
       part.ui.nodes.insert(*entry);
-    const NodeType* type = node.missing ? nullptr : registry.find(node.type);
+    const NodeType* type = known_type(registry, node);
     for (const auto& [key, value] : node.params)
       if (const Param* param = type ? type->find_param(key) : nullptr)
         for (const std::string& variable : variables_in(value, *param))

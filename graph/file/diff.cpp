@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "graph/edit_draft.h"
 #include "graph/file/units.h"
 
 namespace kinegraph {
@@ -31,6 +32,24 @@ void add_if_changed(std::vector<Change>& changes, const Document& before, const 
 }
 
 }  // namespace
+
+Edit edit_between(const Document& before, const Document& after, std::string title) {
+  const Diff step = diff(before, after);
+  Document renamed = before;
+  Edit renames{title, {}};
+  for (const auto& [from, to] : step.renames) {
+    const Edit one = rename_node(renamed, from, to);
+    apply(renamed, one);
+    renames = combined(std::move(renames), one);
+  }
+  EditDraft draft(renamed, title);
+  for (const Change& change : step.changes) draft.set(change.unit, change.after);
+  for (const Document* side : {static_cast<const Document*>(&renamed), &after})
+    for (const Unit& unit : units_of_ui(*side)) draft.set(unit, get(after, unit));
+  Edit edit = combined(std::move(renames), draft.take());
+  edit.title = std::move(title);
+  return edit;
+}
 
 Diff diff(const Document& old, const Document& after) {
   Diff result;

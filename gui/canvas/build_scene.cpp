@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "graph/links.h"
+#include "graph/nested.h"
 #include "gui/canvas/graph_scene.h"
 
 namespace kinegraph {
@@ -104,7 +105,7 @@ void GraphScene::rebuild(const Document& document, const Registry& registry,
     scene.type = node.type;
     scene.enabled = node.enabled;
     scene.note = QString::fromStdString(node.note);
-    const NodeType* type = node.missing ? nullptr : registry.find(node.type);
+    const NodeType* type = known_type(registry, node);
     scene.missing = !type;
     scene.dot = type && type->role == Role::pass;
     auto entry = document.ui.nodes.find(name);

@@ -8,6 +8,7 @@
 #include "graph/file/read.h"
 #include "graph/file/write.h"
 #include "graph/links.h"
+#include "graph/nested.h"
 #include "gui/canvas/arrange.h"
 #include "gui/canvas/canvas_edits.h"
 #include "gui/canvas/graph_canvas.h"
@@ -72,13 +73,13 @@ void GraphCanvas::link_by_search() {
   if (!node) return;
   const std::string from = node->name;
   const Document& document = session_.document();
-  const NodeType* type = session_.registry().find(node->type);
+  const NodeType* type = known_type(session_.registry(), document.nodes.at(from));
   if (!type) return;
   std::vector<std::pair<PortAt, PortAt>> links;
   std::vector<SearchBox::Entry> entries;
   for (const OutputPort& output : type->outputs)
     for (const auto& [name, other] : document.nodes) {
-      const NodeType* to = other.missing || name == from ? nullptr : session_.registry().find(other.type);
+      const NodeType* to = name == from ? nullptr : known_type(session_.registry(), other);
       for (std::size_t i = 0; to && i < to->inputs.size(); ++i) {
         const PortAt a{from, output.name, false}, b{name, to->inputs[i].name, true};
         if (!objection(document, session_.registry(), a, b).isEmpty()) continue;

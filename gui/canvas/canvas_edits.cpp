@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "graph/links.h"
+#include "graph/nested.h"
 
 namespace kinegraph {
 namespace {
@@ -166,7 +167,7 @@ Edit link_ports(const Document& document, const Registry& registry, const PortAt
             .hinting("link an output to an input"));
   const auto& [from, to] = *pair;
   auto node = document.nodes.find(to.node);
-  const NodeType* type = node == document.nodes.end() ? nullptr : registry.find(node->second.type);
+  const NodeType* type = node == document.nodes.end() ? nullptr : known_type(registry, node->second);
   const InputPort* port = type ? type->find_input(to.port) : nullptr;
   std::vector<EditStep> steps;
   if (port && !port->list) {
@@ -195,7 +196,7 @@ std::optional<PortAt> fitting_port(const Document& document, const Registry& reg
                                    const std::string& node) {
   auto found = document.nodes.find(node);
   if (found == document.nodes.end() || found->second.missing || node == from.node) return {};
-  const NodeType* type = registry.find(found->second.type);
+  const NodeType* type = known_type(registry, found->second);
   if (!type) return {};
   std::optional<PortAt> taken;  // only where no free one fits
   const auto try_port = [&](const std::string& name, bool input) {

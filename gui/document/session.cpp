@@ -5,8 +5,11 @@
 #include <QFileInfo>
 #include <QStandardPaths>
 
+#include "graph/file/diff.h"
 #include "graph/file/read.h"
 #include "graph/file/write.h"
+#include "graph/file/write_atomically.h"
+#include "graph/nested.h"
 #include "graph/validate.h"
 
 namespace kinegraph {
@@ -39,6 +42,8 @@ Diagnostics unreadable(const QString& path, const QString& why) {
 }  // namespace
 
 Session::Session(const Registry& registry, QObject* parent) : QObject(parent), registry_(registry) {
+  pages_.push_back(std::make_unique<Page>());
+  page_ = pages_.front().get();
   autosave_.setSingleShot(true);
   autosave_.setInterval(autosave_after_ms);
   connect(&autosave_, &QTimer::timeout, this, &Session::write_autosave);
@@ -47,16 +52,16 @@ Session::Session(const Registry& registry, QObject* parent) : QObject(parent), r
 Session::~Session() = default;
 
 QString Session::folder() const {
-  return path_.isEmpty() ? QDir::currentPath() : QFileInfo(path_).absolutePath();
+  return page_->path.isEmpty() ? QDir::currentPath() : QFileInfo(page_->path).absolutePath();
 }
 
 QString Session::title() const {
-  return path_.isEmpty() ? tr("untitled") : QFileInfo(path_).fileName();
+  return page_->path.isEmpty() ? tr("untitled") : QFileInfo(page_->path).fileName();
 }
 
 QString Session::written_path(const QString& absolute) const {
   const QString relative = QDir(folder()).relativeFilePath(absolute);
-  return path_.isEmpty() || relative.startsWith("../../../../") ? absolute : relative;
+  return page_->path.isEmpty() || relative.startsWith("../../../../") ? absolute : relative;
 }
 
 Diagnostics Session::open(const QString& path) {
@@ -70,55 +75,49 @@ Diagnostics Session::open(const QString& path) {
 Diagnostics Session::open_text(const std::string& text, const QString& path) {
   ReadResult read = read_document(text, path.isEmpty() ? "untitled" : path.toStdString(), registry_);
   if (has_error(read.problems)) return read.problems;
-  document_ = std::move(read.document);
-  history_ = History();
-  recovered_ = false;
-  path_ = path;
-  selected_.clear();
-  current_.clear();
-  autosave_.stop();
-  check_meaning();
-  emit file_changed();
-  emit selection_changed();
-  emit changed();
-  emit meaning_changed();
+  auto page = std::make_unique<Page>();
+  page->document = std::move(read.document);
+  page->path = path;
+  page->text_on_disk = text;
+  show(std::move(page));
   return read.problems;
 }
 
 void Session::clear() {
-  document_ = Document();
-  history_ = History();
-  recovered_ = false;
-  path_.clear();
-  selected_.clear();
-  current_.clear();
+  show(std::make_unique<Page>());
+}
+
+void Session::show(std::unique_ptr<Page> page) {
+  for (auto& one : pages_)
+    if (one.get() == page_) {
+      page_ = page.get();
+      one = std::move(page);
+      break;
+    }
   autosave_.stop();
-  check_meaning();
-  emit file_changed();
-  emit selection_changed();
-  emit changed();
-  emit meaning_changed();
+  tell_of_page();
 }
 
 std::string Session::text() const {
-  return write_document(document_, registry_);
+  return write_document(page_->document, registry_);
 }
 
 void Session::save() {
-  save_as(path_);
+  save_as(page_->path);
 }
 
 void Session::save_as(const QString& path) {
   if (is_read_only())
     throw Failure(error("read-only", "the graph was made by a newer Kinegraph and is open for reading only")
-                      .in_file(path_.toStdString())
+                      .in_file(page_->path.toStdString())
                       .hinting("update Kinegraph to edit it"));
-  write_file_atomically(path.toStdString(), text());
-  const bool moved = path != path_;
+  const std::string saved = text();
+  write_file_atomically(path.toStdString(), saved);
+  page_->text_on_disk = saved;
+  const bool moved = path != page_->path;
   discard_autosave();
-  path_ = QFileInfo(path).absoluteFilePath();
-  history_.mark_saved();
-  recovered_ = false;
+  page_->path = QFileInfo(path).absoluteFilePath();
+  page_->history.mark_saved();
   if (moved) check_meaning();  // relative paths start elsewhere now
   emit file_changed();
   if (moved) emit meaning_changed();
@@ -126,9 +125,9 @@ void Session::save_as(const QString& path) {
 
 QString Session::autosave_path() const {
   const QString name =
-      "." + (path_.isEmpty() ? QString("untitled.kg.json") : QFileInfo(path_).fileName()) + ".autosave";
+      "." + (page_->path.isEmpty() ? QString("untitled.kg.json") : QFileInfo(page_->path).fileName()) + ".autosave";
   const QFileInfo beside(folder());
-  if (!path_.isEmpty() && beside.isWritable()) return QDir(folder()).filePath(name);
+  if (!page_->path.isEmpty() && beside.isWritable()) return QDir(folder()).filePath(name);
   const QString state = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation);
   QDir().mkpath(state);
   // Files of one name in several folders must not share an autosave.
@@ -138,21 +137,19 @@ QString Session::autosave_path() const {
 bool Session::autosave_found() const {
   const QFileInfo autosave(autosave_path());
   if (!autosave.exists() || autosave.size() == 0) return false;
-  return path_.isEmpty() || autosave.lastModified() >= QFileInfo(path_).lastModified();
+  return page_->path.isEmpty() || autosave.lastModified() >= QFileInfo(page_->path).lastModified();
 }
 
 Diagnostics Session::recover() {
   QFile file(autosave_path());
   if (!file.open(QIODevice::ReadOnly)) return unreadable(file.fileName(), file.errorString());
-  const QString path = path_;
-  const QByteArray bytes = file.readAll();
-  Diagnostics problems =
-      open_text(std::string(bytes.constData(), static_cast<std::size_t>(bytes.size())), path);
-  if (!has_error(problems)) {
-    recovered_ = true;
-    emit file_changed();
-  }
-  return problems;
+  ReadResult found = read_document(file.readAll().toStdString(), file.fileName().toStdString(), registry_);
+  if (has_error(found.problems)) return found.problems;
+  perform([&](const Document& document, const Registry&) {
+    return edit_between(document, found.document, "Take up unsaved work");
+  });
+  if (!is_modified()) discard_autosave();
+  return found.problems;
 }
 
 void Session::discard_autosave() {
@@ -177,18 +174,18 @@ bool Session::perform(const std::function<Edit(const Document&, const Registry&)
   }
   Edit edit;
   try {
-    edit = make(document_, registry_);
+    edit = make(page_->document, registry_);
   } catch (const Failure& failure) {
     emit refused(QString::fromStdString(failure.diagnostic().message),
                  QString::fromStdString(failure.diagnostic().hint));
     return false;
   }
   if (edit.empty()) return true;
-  apply(document_, edit);
+  apply(page_->document, edit);
   if (gesture_ && gesture_started_)
-    history_.extend(edit);
+    page_->history.extend(edit);
   else
-    history_.push(edit);
+    page_->history.push(edit);
   gesture_started_ = gesture_;
   after(edit);
   return true;
@@ -207,46 +204,50 @@ void Session::end_gesture() {
 void Session::undo() {
   if (!can_undo()) return;
   end_gesture();
-  after(history_.undo(document_));
+  after(page_->history.undo(page_->document));
 }
 
 void Session::redo() {
   if (!can_redo()) return;
   end_gesture();
-  after(history_.redo(document_));
+  after(page_->history.redo(page_->document));
 }
 
 void Session::after(const Edit& edit) {
   const bool meaning = !only_for_the_eye(edit);
   keep_selection_valid();
   if (meaning) check_meaning();
-  autosave_.start();
+  if (is_modified())
+    autosave_.start();
+  else
+    discard_autosave();
   emit changed();
   emit file_changed();
   if (meaning) emit meaning_changed();
 }
 
 void Session::check_meaning() {
+  open_inside(page_->document, page_->path);
   ValidateOptions options;
   options.file = title().toStdString();
   options.folder = folder().toStdString();
-  problems_ = document_.read_only ? Diagnostics{} : validate(document_, registry_, options);
+  page_->problems = page_->document.read_only ? Diagnostics{} : validate(page_->document, registry_, options);
   emit problems_changed();
 }
 
 void Session::keep_selection_valid() {
   std::set<std::string> still;
-  for (const std::string& name : selected_)
-    if (document_.nodes.count(name)) still.insert(name);
-  const std::string current = document_.nodes.count(current_) ? current_ : std::string();
-  if (still != selected_ || current != current_) select(std::move(still), current);
+  for (const std::string& name : page_->selected)
+    if (page_->document.nodes.count(name)) still.insert(name);
+  const std::string current = page_->document.nodes.count(page_->current) ? page_->current : std::string();
+  if (still != page_->selected || current != page_->current) select(std::move(still), current);
 }
 
 void Session::select(std::set<std::string> nodes, std::string current) {
   if (current.empty() && nodes.size() == 1) current = *nodes.begin();
-  if (nodes == selected_ && current == current_) return;
-  selected_ = std::move(nodes);
-  current_ = std::move(current);
+  if (nodes == page_->selected && current == page_->current) return;
+  page_->selected = std::move(nodes);
+  page_->current = std::move(current);
   emit selection_changed();
 }
 

@@ -1,12 +1,15 @@
-// One open graph in the editor: its document with undo, its file, what is selected. Every dock reads and
-// edits the graph through this and hears of changes from it; none knows another. Lives in the GUI thread and
-// never computes.
+// The open graph of the editor: its document with undo, its file, what is selected. Every dock reads and
+// edits the graph through this and hears of changes from it; none knows another. Several graphs can be open,
+// each a page of its own with its own undo; the session speaks for the one that is shown. Lives in the GUI
+// thread and never computes.
 #pragma once
 #include <QObject>
 #include <QString>
 #include <QStringList>
 #include <QTimer>
 #include <functional>
+#include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,13 +28,13 @@ class Session : public QObject {
   ~Session() override;
 
   const Registry& registry() const { return registry_; }
-  const Document& document() const { return document_; }
-  const History& history() const { return history_; }
-  bool is_read_only() const { return document_.read_only; }
-  bool is_modified() const { return !history_.is_saved() || recovered_; }
+  const Document& document() const { return page_->document; }
+  const History& history() const { return page_->history; }
+  bool is_read_only() const { return page_->document.read_only; }
+  bool is_modified() const { return is_page_modified(page()); }
 
   // The file, absolute; "" for a graph that was never saved. folder(): where its relative paths start.
-  QString path() const { return path_; }
+  QString path() const { return page_->path; }
   QString folder() const;
   QString title() const;  // "sneaky_walk.kg.json", "untitled"
   // How the graph writes down a file: relative to its folder, but absolute where it lies in another tree.
@@ -45,6 +48,25 @@ class Session : public QObject {
   void save();
   void save_as(const QString& path);
   std::string text() const;  // canonical
+  // The file's text when it was last read or saved here; merging starts from it.
+  const std::string& text_on_disk() const { return page_->text_on_disk; }
+  void set_text_on_disk(std::string text) { page_->text_on_disk = std::move(text); }
+
+  // Pages, in the order of their tabs. open_page() shows a file's page, and makes one where it has none.
+  int pages() const { return int(pages_.size()); }
+  int page() const;
+  QString page_path(int page) const { return pages_[std::size_t(page)]->path; }
+  QString page_title(int page) const;
+  bool is_page_modified(int page) const;
+  Diagnostics open_page(const QString& path);
+  void show_page(int page);
+  void close_page(int page);  // the last one becomes an empty graph
+  // Files of open pages with unsaved changes that the shown graph uses, directly or deeper. Until they are
+  // saved it is evaluated with what is open.
+  std::vector<int> modified_inside() const;
+  // Graph files inside the shown graph, absolute. Those that changed on disk are read again by reopen_inside().
+  QStringList files_inside() const;
+  void reopen_inside();
 
   // Autosave: beside the file as .NAME.kg.json.autosave, in the state folder where that can't be written. An
   // autosave newer than the file is offered by autosave_found(); recover() takes it up as one undo step.
@@ -59,41 +81,51 @@ class Session : public QObject {
   void begin_gesture();
   void end_gesture();
   bool in_gesture() const { return gesture_; }
-  bool can_undo() const { return history_.can_undo() && !is_read_only(); }
-  bool can_redo() const { return history_.can_redo() && !is_read_only(); }
+  bool can_undo() const { return history().can_undo() && !is_read_only(); }
+  bool can_redo() const { return history().can_redo() && !is_read_only(); }
   void undo();
   void redo();
 
   // The structure's problems (graph/validate.h), kept up to date.
-  const Diagnostics& problems() const { return problems_; }
+  const Diagnostics& problems() const { return page_->problems; }
 
   // Selection: names of nodes; the current one is what the parameter panel and viewer show.
-  const std::set<std::string>& selected() const { return selected_; }
-  const std::string& current() const { return current_; }
+  const std::set<std::string>& selected() const { return page_->selected; }
+  const std::string& current() const { return page_->current; }
   void select(std::set<std::string> nodes, std::string current = {});
 
  signals:
   void changed();          // after every edit, undo, redo, open
   void meaning_changed();  // when more than `ui` changed: evaluation is due
-  void file_changed();     // path or modified state
+  void file_changed();     // path or modified state, or the pages
+  void page_changed();     // another graph is shown: nothing known of the one before holds
   void selection_changed();
   void problems_changed();
   void refused(const QString& message, const QString& hint);  // an edit was not possible
 
  private:
+  struct Page {
+    Document document;
+    History history;
+    QString path;
+    std::string text_on_disk;
+    Diagnostics problems;
+    std::set<std::string> selected;
+    std::string current;
+  };
   void after(const Edit& edit);
+  void show(std::unique_ptr<Page> page);  // instead of the shown one
+  void tell_of_page();
   void check_meaning();
+  void open_inside(Document& document, const QString& path) const;
+  std::string text_inside(const std::string& path) const;
   void keep_selection_valid();
   void write_autosave();
 
   const Registry& registry_;
-  Document document_;
-  History history_;
-  QString path_;
-  bool gesture_ = false, gesture_started_ = false, recovered_ = false;
-  Diagnostics problems_;
-  std::set<std::string> selected_;
-  std::string current_;
+  std::vector<std::unique_ptr<Page>> pages_;
+  Page* page_;  // the shown one
+  bool gesture_ = false, gesture_started_ = false;
   QTimer autosave_;
 };
 

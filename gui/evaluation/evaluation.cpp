@@ -6,6 +6,10 @@
 
 #include <QMetaObject>
 
+#include "graph/links.h"
+#include "graph/nested.h"
+#include "graph/validate.h"
+
 namespace kinegraph {
 namespace {
 
@@ -30,12 +34,50 @@ void lower_priority_of_this_thread() {
 
 }  // namespace
 
+namespace {
+
+// Nodes that something is wrong with stand aside as missing, so that all that doesn't depend on them still
+// runs: half of the graphs that a person edits aren't whole. What is wrong and of no node stays in `problems`.
+Plan plan_of_sound_part(EvaluationRequest& request, const Registry& registry, const PlanOptions& options,
+                        std::map<std::string, Diagnostics>& left_out, Diagnostics& problems) {
+  const auto set_aside = [&](const Diagnostics& found) {
+    bool any = false;
+    for (const Diagnostic& problem : found) {
+      if (problem.severity != Severity::error) continue;
+      const std::string name = problem.node.substr(0, problem.node.find('/'));
+      auto node = request.document.nodes.find(name);
+      if (node == request.document.nodes.end() || node->second.missing) continue;
+      left_out[name].push_back(problem);
+      node->second.missing = to_json(node->second);
+      node->second.nested.reset();
+      any = true;
+    }
+    return any;
+  };
+  for (const std::vector<std::string>& round : cycles(request.document))
+    for (const std::string& name : round)
+      set_aside({error("cycle", "it is part of a cycle").at_node(name).hinting("cut one of its links")});
+  ValidateOptions validating;
+  validating.file = request.file;
+  validating.folder = request.folder;
+  validating.check_files = false;  // a missing file fails the node that reads it
+  set_aside(validate(request.document, registry, validating));
+  for (;;) {
+    problems.clear();
+    Plan plan = make_plan(request.document, registry, options, problems);
+    if (!has_error(problems) || !set_aside(problems)) return plan;
+  }
+}
+
+}  // namespace
+
 struct Evaluation::Result {
   RunLog log;
   Diagnostics problems;
   std::map<std::string, ValuePtr> values;
+  std::map<std::string, Diagnostics> left_out;  // nodes with problems that keep them from running
   bool effects = false;
-  std::uint64_t generation = 0;
+  std::uint64_t generation = 0, graph = 0;
 };
 
 Evaluation::Evaluation(const Registry& registry, std::string cache_folder, QObject* parent)
@@ -62,6 +104,7 @@ void Evaluation::request(EvaluationRequest request) {
   {
     std::lock_guard lock(mutex_);
     ++generation_;
+    request.graph = graph_;
     if (request.effects)
       next_effects_ = std::move(request);
     else
@@ -69,6 +112,20 @@ void Evaluation::request(EvaluationRequest request) {
     if (running_ && !running_effects_) running_->stop();
   }
   wake_.notify_all();
+}
+
+void Evaluation::forget() {
+  {
+    std::lock_guard lock(mutex_);
+    ++generation_;
+    ++graph_;
+    next_.reset();
+    if (running_ && !running_effects_) running_->stop();
+  }
+  statuses_.clear();
+  values_.clear();
+  log_ = {};
+  problems_.clear();
 }
 
 void Evaluation::cancel() {
@@ -132,10 +189,15 @@ void Evaluation::run(EvaluationRequest request) {
     result->generation = generation_;
   }
   result->effects = request.effects;
+  result->graph = request.graph;
   PlanOptions planning;
   planning.file = request.file;
   planning.folder = planning.set_folder = planning.out = request.folder;
-  const Plan plan = make_plan(request.document, registry_, planning, result->problems);
+  const Plan plan = plan_of_sound_part(request, registry_, planning, result->left_out, result->problems);
+  if (has_error(result->problems)) {
+    deliver(std::move(result));
+    return;
+  }
   std::vector<Target> targets;
   for (Target& target : request.targets)
     if (request.document.nodes.count(target.node)) targets.push_back(std::move(target));
@@ -155,7 +217,7 @@ void Evaluation::run(EvaluationRequest request) {
   for (const Target& target : targets) {
     const NodeType* type = nullptr;
     auto node = request.document.nodes.find(target.node);
-    if (node != request.document.nodes.end()) type = registry_.find(node->second.type);
+    if (node != request.document.nodes.end()) type = known_type(registry_, node->second);
     if (!type) continue;
     for (const OutputPort& port : type->outputs)
       if (target.port.empty() || target.port == port.name)
@@ -187,6 +249,10 @@ void Evaluation::deliver(std::shared_ptr<Result> result) {
   QMetaObject::invokeMethod(
       this,
       [this, result] {
+        {
+          std::lock_guard lock(mutex_);
+          if (result->graph != graph_) return;
+        }
         // An older run that was stopped says nothing new, but its finished values are as good as any.
         for (auto& [name, value] : result->values) values_[name] = value;
         for (const auto& [name, run] : result->log.nodes) {
@@ -199,6 +265,13 @@ void Evaluation::deliver(std::shared_ptr<Result> result) {
           status.cached.clear();
           for (const auto& [port, output] : run.outputs)
             if (output.computed) status.cached = output.cached;
+          emit status_changed(QString::fromStdString(name));
+        }
+        for (const auto& [name, diagnostics] : result->left_out) {
+          NodeStatus& status = statuses_[name];
+          status = {};
+          status.state = NodeStatus::State::failed;
+          status.diagnostics = diagnostics;
           emit status_changed(QString::fromStdString(name));
         }
         log_ = std::move(result->log);

@@ -31,6 +31,7 @@ struct EvaluationRequest {
   Document document;
   std::string file, folder;
   std::vector<Target> targets;
+  std::uint64_t graph = 0;  // filled in by request()
   bool effects = false;  // the Run button: Exports and Checks as well, into `folder`
 };
 
@@ -46,6 +47,8 @@ class Evaluation : public QObject {
   // from the cache. A run with effects is not replaced by one without; the latter waits.
   void request(EvaluationRequest request);
   void cancel();
+  // Another graph is asked about from now on: nothing known of the nodes of the one before holds.
+  void forget();
   bool is_busy() const;
 
   // The newest results; valid in the GUI thread.
@@ -60,7 +63,7 @@ class Evaluation : public QObject {
 
  public:
   const RunLog& log() const { return log_; }
-  const Diagnostics& problems() const { return problems_; }  // of planning
+  const Diagnostics& problems() const { return problems_; }  // of the graph as a whole, which keep it from running
 
  private:
   struct Result;
@@ -81,7 +84,7 @@ class Evaluation : public QObject {
   std::optional<EvaluationRequest> next_effects_;
   std::shared_ptr<StopToken> running_;
   bool running_effects_ = false, quitting_ = false, busy_ = false;
-  std::uint64_t generation_ = 0;
+  std::uint64_t generation_ = 0, graph_ = 0;  // counts requests, and graphs forgotten
 
   // GUI thread only.
   std::map<std::string, NodeStatus> statuses_;

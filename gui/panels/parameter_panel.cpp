@@ -11,6 +11,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "graph/nested.h"
 #include "gui/canvas/node_painter.h"
 #include "gui/viewer/looked_at.h"
 #include "nodes/motion/motion.h"
@@ -118,8 +119,8 @@ void ParameterPanel::set_theme(const Theme& theme) {
 
 const NodeType* ParameterPanel::type() const {
   auto found = session_.document().nodes.find(node_);
-  if (found == session_.document().nodes.end() || found->second.missing) return nullptr;
-  return session_.registry().find(found->second.type);
+  if (found == session_.document().nodes.end()) return nullptr;
+  return known_type(session_.registry(), found->second);
 }
 
 void ParameterPanel::show_node() {

@@ -7,6 +7,8 @@
 #include <set>
 #include <string_view>
 
+#include "graph/nested.h"
+
 namespace kinegraph {
 namespace {
 
@@ -22,7 +24,7 @@ std::vector<Target> links_into(const Document& document, const Registry& registr
     if (inputs == node.inputs.end() || !seen.insert(port).second) return;
     for (const Link& link : inputs->second.links) all.push_back({link.node, link.port});
   };
-  if (const NodeType* type = registry.find(node.type))
+  if (const NodeType* type = known_type(registry, node))
     for (const InputPort& port : type->inputs) take(port.name);
   for (const auto& [port, inputs] : node.inputs) take(port);
   return all;
@@ -50,7 +52,7 @@ bool may_make(const Node& node, const std::string& type) {
 std::string type_of(const Document& document, const Registry& registry, const Target& target, int depth) {
   auto node = document.nodes.find(target.node);
   if (node == document.nodes.end() || depth > 64) return {};
-  const NodeType* type = registry.find(node->second.type);
+  const NodeType* type = known_type(registry, node->second);
   const OutputPort* port = type ? type->find_output(target.port) : nullptr;
   if (!port) return {};
   if (!port->type.empty()) return port->type;
@@ -72,7 +74,7 @@ std::vector<Target> outputs_of(const Document& document, const Registry& registr
   std::vector<Target> all;
   auto found = document.nodes.find(node);
   if (found == document.nodes.end() || !may_make(found->second, type)) return all;
-  if (const NodeType* node_type = registry.find(found->second.type))
+  if (const NodeType* node_type = known_type(registry, found->second))
     for (const OutputPort& port : node_type->outputs)
       if (type_of_output(document, registry, {node, port.name}) == type) all.push_back({node, port.name});
   return all;

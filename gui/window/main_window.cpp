@@ -10,6 +10,7 @@
 #include <QStatusBar>
 #include <QVBoxLayout>
 
+#include "graph/nested.h"
 #include "gui/viewer/looked_at.h"
 #include "gui/window/settings.h"
 
@@ -137,7 +138,7 @@ void MainWindow::evaluate() {
   std::string looked_at = session_.current();
   if (looked_at.empty()) looked_at = node_to_look_at(session_.document(), registry_);
   if (auto found = session_.document().nodes.find(looked_at); found != session_.document().nodes.end()) {
-    const NodeType* type = found->second.missing ? nullptr : registry_.find(found->second.type);
+    const NodeType* type = known_type(registry_, found->second);
     if (type && type->effect != Effect::none) {
       for (const auto& [port, inputs] : found->second.inputs)
         for (const Link& link : inputs.links) ask({link.node, link.port});

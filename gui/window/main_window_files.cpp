@@ -10,6 +10,7 @@
 #include "graph/file/diff.h"
 #include "graph/file/merge.h"
 #include "graph/file/read.h"
+#include "graph/nested.h"
 #include "gui/canvas/canvas_edits.h"
 #include "gui/window/main_window.h"
 #include "gui/window/settings.h"
@@ -184,7 +185,7 @@ void MainWindow::run_effects() {
   request.effects = true;
   bool any = false;
   for (const auto& [name, node] : session_.document().nodes) {
-    const NodeType* type = node.missing ? nullptr : registry_.find(node.type);
+    const NodeType* type = known_type(registry_, node);
     any |= type && type->effect != Effect::none && node.enabled;
   }
   if (!any) {
@@ -225,7 +226,7 @@ void MainWindow::watch_files() {
   QStringList wanted;
   if (!session_.path().isEmpty()) wanted << session_.path();
   for (const auto& [name, node] : session_.document().nodes) {
-    const NodeType* type = node.missing ? nullptr : registry_.find(node.type);
+    const NodeType* type = known_type(registry_, node);
     if (!type) continue;
     for (const auto& [key, value] : node.params) {
       const Param* param = type->find_param(key);
