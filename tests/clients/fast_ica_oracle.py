@@ -40,10 +40,9 @@ def amari(p):
     return (rows + columns) / (2 * n * (n - 1))
 
 
-def main():
+def lines():
     s, a = sources(), mixing()
     x = s @ a.T
-    print("// Written by tests/clients/fast_ica_oracle.py: nonlinearity, symmetric, Amari index, unmixing matrix.")
     for fun, name in (("logcosh", "logcosh"), ("cube", "pow3"), ("exp", "gauss")):
         for algorithm in ("parallel", "deflation"):
             ica = FastICA(n_components=SOURCES, algorithm=algorithm, fun=fun, whiten="unit-variance", tol=1e-8,
@@ -52,7 +51,9 @@ def main():
             w = ica.components_
             rows = ", ".join(repr(float(v)) for v in w.ravel())
             symmetric = "true" if algorithm == "parallel" else "false"
-            print("{Nonlinearity::%s, %s, %r, {%s}}," % (name, symmetric, float(amari(w @ a)), rows))
+            yield "{Nonlinearity::%s, %s, %r, {%s}}," % (name, symmetric, float(amari(w @ a)), rows)
 
 
-main()
+if __name__ == "__main__":
+    print("// Written by tests/clients/fast_ica_oracle.py: nonlinearity, symmetric, Amari index, unmixing matrix.")
+    print("\n".join(lines()))
