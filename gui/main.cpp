@@ -60,7 +60,10 @@ int main(int argc, char** argv) {
   if (graphs.size() > 1) return complain("one graph at a time");
   bool opened = true;
   if (!picture) window.show();
-  if (!graphs.isEmpty()) opened = window.open(graphs.first());
+  if (!graphs.isEmpty())
+    opened = window.open(graphs.first());
+  else if (!picture)
+    window.offer_autosave();
   if (options.isSet(dock)) {
     if (!window.dock_names().contains(options.value(dock), Qt::CaseInsensitive))
       return complain("there is no dock \"" + options.value(dock) + "\"; there are " +

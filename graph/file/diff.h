@@ -18,7 +18,8 @@ struct Diff {
   bool empty() const { return renames.empty() && changes.empty(); }
 };
 Diff diff(const Document& before, const Document& after);
-// The one edit that makes `before` into `after`, its layout too: a merge or a recovered file as one undo step.
+// The one edit that makes `before` into `after`, its layout too: a merge or a recovered file as one undo
+// step.
 Edit edit_between(const Document& before, const Document& after, std::string title);
 
 // {"renamed": {OLD: NEW}, "changes": [{"kind", "name", "key", "before", "after"}], "layout"}; what is absent

@@ -5,6 +5,7 @@
 
 #include "graph/links.h"
 #include "graph/nested.h"
+#include "gui/canvas/arrange.h"
 #include "gui/canvas/graph_scene.h"
 
 namespace kinegraph {
@@ -13,6 +14,7 @@ namespace {
 constexpr double title_height = 40;  // name and type
 constexpr double row = 20;
 constexpr double value_row = 17;
+constexpr double still_height = 46;
 constexpr std::size_t ports_shown_at_once = 4;  // a node with more shows the linked ones and the first
 constexpr std::size_t values_shown = 3;
 
@@ -98,7 +100,7 @@ void GraphScene::rebuild(const Document& document, const Registry& registry,
     for (const auto& [port, inputs] : node.inputs)
       for (const Link& link : inputs.links) linked_from[link.node].insert(link.port);
 
-  double unplaced = 0;  // nodes without a position stand in a row below the origin, as they were never seen
+  std::set<std::string> unplaced;
   for (const auto& [name, node] : document.nodes) {
     SceneNode scene;
     scene.name = name;
@@ -116,8 +118,7 @@ void GraphScene::rebuild(const Document& document, const Registry& registry,
     if (auto saved = point_of(ui, "pos")) {
       pos = *saved;
     } else {
-      pos = QPointF(std::fmod(unplaced, 6) * 240, std::floor(unplaced / 6) * 160);
-      ++unplaced;
+      unplaced.insert(name);
     }
     const auto& outs = linked_from[name];
     std::set<std::string> ins;
@@ -195,6 +196,12 @@ void GraphScene::rebuild(const Document& document, const Registry& registry,
         scene.more = QRectF(0, height, node_width, 18);
         height += 18;
       }
+      const bool moves = std::any_of(scene.outputs.begin(), scene.outputs.end(),
+                                     [](const ScenePort& port) { return port.type == "Motion"; });
+      if (moves) {
+        scene.still = QRectF(8, height + 2, node_width - 16, still_height);
+        height += still_height + 4;
+      }
       if (type) add_values(scene, node, *type);
       if (!scene.values.empty()) height += 6 + value_row * double(scene.values.size());
       scene.rect = QRectF(pos, QSizeF(node_width, std::ceil((height + 6) / step) * step));
@@ -231,7 +238,22 @@ void GraphScene::rebuild(const Document& document, const Registry& registry,
     notes_.push_back(std::move(note));
   }
   place_wires();
+  if (!unplaced.empty()) arrange_unplaced(unplaced);
   place_frames();
+}
+
+// Nodes that were never seen in an editor: in columns, below those that have a place.
+void GraphScene::arrange_unplaced(const std::set<std::string>& nodes) {
+  double bottom = 0;
+  bool any = false;
+  for (const SceneNode& node : nodes_)
+    if (!nodes.count(node.name)) {
+      bottom = any ? std::max(bottom, node.rect.bottom()) : node.rect.bottom();
+      any = true;
+    }
+  for (const auto& [name, at] : arranged(*this, nodes))
+    nodes_[by_name_.at(name)].rect.moveTopLeft(at + QPointF(0, any ? bottom + 60 : 0));
+  place_wires();
 }
 
 }  // namespace kinegraph

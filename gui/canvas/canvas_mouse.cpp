@@ -9,7 +9,7 @@
 #include <QUrl>
 #include <cmath>
 
-#include "graph/file/read.h"
+#include "graph/nested.h"
 #include "gui/canvas/canvas_edits.h"
 #include "gui/canvas/graph_canvas.h"
 
@@ -162,8 +162,12 @@ void GraphCanvas::mouseDoubleClickEvent(QMouseEvent* event) {
   unsetCursor();
   const QPointF at = to_graph(event->position());
   if (const SceneNode* node = scene_.node_at(at)) {
-    session_.select({node->name}, node->name);
-    rename_selected();
+    const std::string name = node->name;
+    session_.select({name}, name);
+    if (session_.document().nodes.at(name).nested)
+      emit opened_inside(QString::fromStdString(name));
+    else
+      rename_selected();
     return;
   }
   if (const SceneNote* note = scene_.note_at(at)) {
@@ -211,6 +215,10 @@ void GraphCanvas::contextMenuEvent(QContextMenuEvent* event) {
     menu.addAction(tr("Link from here…"), this, &GraphCanvas::link_by_search);
     menu.addAction(tr("Take out of its links"), this, &GraphCanvas::take_out_selected);
     menu.addAction(tr("Group in a frame"), this, &GraphCanvas::group_in_frame);
+    const std::string name = node->name;
+    if (session_.document().nodes.at(name).nested)
+      menu.addAction(tr("Open its graph"), this,
+                     [this, name] { emit opened_inside(QString::fromStdString(name)); });
     menu.addSeparator();
     menu.addAction(tr("Cut"), this, &GraphCanvas::cut_selected);
     menu.addAction(tr("Copy"), this, &GraphCanvas::copy_selected);
@@ -247,7 +255,9 @@ void GraphCanvas::dropEvent(QDropEvent* event) {
 }
 
 QString GraphCanvas::node_tip(const SceneNode& node) const {
-  const NodeType* type = session_.registry().find(node.type);
+  const auto found = session_.document().nodes.find(node.name);
+  const NodeType* type =
+      found == session_.document().nodes.end() ? nullptr : known_type(session_.registry(), found->second);
   QString tip = "<b>" + QString::fromStdString(node.name).toHtmlEscaped() + "</b> · " +
                 QString::fromStdString(node.type).toHtmlEscaped();
   if (type) tip += "<br>" + QString::fromStdString(type->help).toHtmlEscaped();

@@ -29,7 +29,6 @@ void GraphCanvas::paintEvent(QPaintEvent*) {
   paint_nodes(p, seen);
   if (gesture_) gesture_->paint(p);
   p.setRenderHint(QPainter::Antialiasing, true);
-  if (scene_.nodes().empty() && scene_.notes().empty()) paint_empty_hint(p);
   paint_mini_map(p);
   paint_hint(p);
   if (hasFocus()) {
@@ -172,34 +171,6 @@ void GraphCanvas::paint_mini_map(QPainter& p) {
   p.setBrush(Qt::NoBrush);
   p.drawRect(QRectF(place(to_graph({0, 0})), place(to_graph({double(width()), double(height())}))));
   p.restore();
-}
-
-void GraphCanvas::paint_empty_hint(QPainter& p) {
-  const QRectF box = QRectF(rect()).adjusted(20, 20, -20, -20);
-  const QPointF middle = box.center();
-  p.setPen(theme_->text);
-  p.setFont(ui_font(19, true));
-  p.drawText(QRectF(box.left(), middle.y() - 92, box.width(), 30), Qt::AlignCenter,
-             tr("This graph is empty"));
-  const std::pair<QString, QString> lines[] = {
-      {tr("Tab"), tr("add a node by its name")},
-      {tr("Drop"), tr("a motion file here to load it")},
-      {tr("Ctrl+O"), tr("open a graph")},
-      {tr("Files"), tr("has examples to start from")},
-  };
-  double y = middle.y() - 46;
-  p.setFont(ui_font(13));
-  for (const auto& [key, what] : lines) {
-    const QRectF cap(middle.x() - 130, y, 62, 24);
-    p.setPen(QPen(theme_->line, 1));
-    p.setBrush(theme_->panel);
-    p.drawRoundedRect(cap, 4, 4);
-    p.setPen(theme_->text);
-    p.drawText(cap, Qt::AlignCenter, key);
-    p.setPen(theme_->faint_text);
-    p.drawText(QRectF(cap.right() + 14, y, 260, 24), Qt::AlignVCenter, what);
-    y += 32;
-  }
 }
 
 void GraphCanvas::paint_hint(QPainter& p) {

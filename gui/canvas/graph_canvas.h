@@ -79,8 +79,9 @@ class GraphCanvas : public QWidget {
   void nudge(int dx, int dy);  // moves the selection by steps
 
  signals:
-  void hovered_text(const QString& text);  // for the status bar
-  void file_dropped(const QString& path);  // a graph: to be opened
+  void hovered_text(const QString& text);   // for the status bar
+  void opened_inside(const QString& node);  // a Graph node was double-clicked
+  void file_dropped(const QString& path);   // a graph: to be opened
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -107,7 +108,6 @@ class GraphCanvas : public QWidget {
   void paint_wires(QPainter& painter, const QRectF& seen);
   void paint_nodes(QPainter& painter, const QRectF& seen);
   void paint_mini_map(QPainter& painter);
-  void paint_empty_hint(QPainter& painter);
   void paint_hint(QPainter& painter);
   QRectF mini_map_rect() const;  // null when there is nothing to overlook
   QPointF mini_map_to_graph(QPointF view) const;

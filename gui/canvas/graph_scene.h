@@ -35,7 +35,8 @@ struct SceneNode {
   std::vector<SceneValue> values;
   int hidden_ports = 0;  // behind "more"
   bool expandable = false, expanded = false;
-  QRectF more;  // the row that shows and hides them, relative to the node
+  QRectF still;  // where a motion's still is drawn, relative to the node; null: it has none
+  QRectF more;   // the row that shows and hides them, relative to the node
   bool enabled = true, missing = false, dot = false;
   QString note, color;
 
@@ -99,6 +100,7 @@ class GraphScene {
   QPointF port_position(const PortAt& port) const;
 
  private:
+  void arrange_unplaced(const std::set<std::string>& nodes);
   void place_wires();
   void place_frames();
   std::size_t index_of(const std::string& name) const;

@@ -160,6 +160,43 @@ QColor state_color(const Theme& theme, NodeStatus::State state) {
   }
 }
 
+namespace {
+
+// Farther limbs first: the right side, then the middle, then the left.
+void draw_still(QPainter& p, const QRectF& box, const Still* still, const Theme& theme) {
+  p.setPen(Qt::NoPen);
+  p.setBrush(theme.still_ground);
+  p.drawRoundedRect(box, 3, 3);
+  if (!still || still->limbs.empty()) return;
+  p.save();
+  QPainterPath inside;
+  inside.addRoundedRect(box, 3, 3);
+  p.setClipPath(inside);
+  const double room = box.height() - 9;
+  const double across = box.width() / (still->figures + 0.1);
+  const double scale = std::min(room / still->height, room);
+  const double floor = box.bottom() - 4;
+  p.setPen(QPen(theme.line, 1));
+  p.drawLine(QPointF(box.left() + 4, floor + 0.5), QPointF(box.right() - 4, floor + 0.5));
+  for (const auto side : {Still::Side::right, Still::Side::middle, Still::Side::left}) {
+    QColor color = side == Still::Side::left    ? theme.left
+                   : side == Still::Side::right ? theme.right
+                                                : theme.bone;
+    p.setPen(QPen(color, 1.6, Qt::SolidLine, Qt::RoundCap));
+    for (const Still::Limb& limb : still->limbs) {
+      if (limb.side != side) continue;
+      const double x = box.left() + across * (limb.figure + 0.55);
+      const auto at = [&](QPointF point) {
+        return QPointF(x + point.x() * scale, floor - point.y() * scale);
+      };
+      p.drawLine(at(limb.line.p1()), at(limb.line.p2()));
+    }
+  }
+  p.restore();
+}
+
+}  // namespace
+
 void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std::optional<Severity> problem,
                const Theme& theme, double zoom) {
   p.save();
@@ -229,8 +266,10 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
     p.setPen(theme.faint_text);
     QString right;
     if (state == State::done && status)
-      right = status->cached == "memory" || status->cached == "disk" ? QObject::tr("cached")
-                                                                     : shown_seconds(status->seconds);
+      right = status->cached == "memory" || status->cached == "disk"
+                  ? (status->seconds >= 0.0005 ? shown_seconds(status->seconds) + " · " : QString()) +
+                        QObject::tr("cached")
+                  : shown_seconds(status->seconds);
     else if (state != State::idle)
       right = shown_state(state);
     const double right_width = right.isEmpty() ? 0 : QFontMetricsF(p.font()).horizontalAdvance(right) + 4;
@@ -263,6 +302,7 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
         draw_text(p, label, input ? Qt::AlignLeft : Qt::AlignRight,
                   QString::fromStdString(port.name) + (port.list ? " …" : ""));
       }
+    if (!node.still.isNull()) draw_still(p, node.still, status ? status->still.get() : nullptr, theme);
     if (node.expandable) {
       p.setPen(theme.faint_text);
       p.setFont(font_of(11));

@@ -50,6 +50,7 @@ SearchBox::SearchBox(QWidget* parent) : QFrame(parent) {
   layout->setSpacing(6);
   line_ = new QLineEdit(this);
   line_->setObjectName("search_line");
+  line_->setAccessibleName(tr("Search"));
   line_->setClearButtonEnabled(false);
   list_ = new QListWidget(this);
   list_->setObjectName("search_list");

@@ -10,12 +10,12 @@
 
 namespace kinegraph {
 namespace {
-constexpr int least_width = 148, tile_height = 212, gap = 8;
-constexpr int head = 24, caption = 20, signal_height = 40;
+constexpr int least_width = 148, least_height = 148, most_height = 212, gap = 8;
+constexpr int head = 24, caption = 20, signal_height = 34;
 constexpr int playing_ms = 50;
 }  // namespace
 
-ComponentsGrid::ComponentsGrid(QWidget* parent) : QWidget(parent), theme_(&dark_theme()) {
+ComponentsGrid::ComponentsGrid(QWidget* parent) : QWidget(parent), theme_(&dark_theme()), maker_(this) {
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(tr("Components"));
   QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Preferred);
@@ -66,7 +66,7 @@ int ComponentsGrid::columns(int width) const {
 
 int ComponentsGrid::heightForWidth(int width) const {
   const int rows = (count() + columns(width) - 1) / columns(width);
-  return std::max(tile_height, rows * (tile_height + gap) + gap);
+  return std::max(tile_height_, rows * (tile_height_ + gap) + gap);
 }
 
 QSize ComponentsGrid::sizeHint() const {
@@ -76,12 +76,21 @@ QSize ComponentsGrid::sizeHint() const {
 QRect ComponentsGrid::tile(int component) const {
   const int across = columns(width());
   const int wide = (width() - gap) / across - gap;
-  return QRect(gap + component % across * (wide + gap), gap + component / across * (tile_height + gap), wide,
-               tile_height);
+  return QRect(gap + component % across * (wide + gap), gap + component / across * (tile_height_ + gap), wide,
+               tile_height_);
 }
 
 QRect ComponentsGrid::figure_part(const QRect& tile) const {
   return tile.adjusted(1, head, -1, -caption - signal_height - 4);
+}
+
+void ComponentsGrid::set_room(int height) {
+  const int wanted = std::clamp(height - 2 * gap, least_height, most_height);
+  if (wanted == tile_height_) return;
+  tile_height_ = wanted;
+  updateGeometry();
+  update();
+  ask();
 }
 
 void ComponentsGrid::choose(int component, bool also) {

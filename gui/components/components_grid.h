@@ -1,6 +1,7 @@
 // All components of an analysis as small playing figures with caption and signal. A click chooses one, with
 // Ctrl or Shift several; the arrow keys walk, Space chooses.
 #pragma once
+#include <QElapsedTimer>
 #include <QImage>
 #include <QTimer>
 #include <QWidget>
@@ -29,6 +30,8 @@ class ComponentsGrid : public QWidget {
   int current() const { return current_; }
   void choose(int component, bool also);
   QRect tile(int component) const;
+  // How high what shows the grid is: one row of tiles fits in it where it isn't too low.
+  void set_room(int height);
 
   bool hasHeightForWidth() const override { return true; }
   int heightForWidth(int width) const override;
@@ -59,7 +62,7 @@ class ComponentsGrid : public QWidget {
   QTimer playing_;
   QElapsedTimer clock_;
   std::set<int> chosen_;
-  int current_ = 0;
+  int current_ = 0, tile_height_ = 212;
   bool drawing_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include "gui/components/components_panel.h"
 
+#include <QBoxLayout>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -48,17 +49,23 @@ ComponentsPanel::ComponentsPanel(Session& session, Evaluation& evaluation, Playb
   empty_->setMargin(24);
   pages_->addWidget(empty_);
   auto* page = new QWidget(this);
-  auto* rows = new QVBoxLayout(page);
-  rows->setContentsMargins(0, 0, 0, 0);
-  rows->setSpacing(0);
+  parts_ = new QBoxLayout(QBoxLayout::TopToBottom, page);
+  parts_->setContentsMargins(0, 0, 0, 0);
+  parts_->setSpacing(0);
   auto* scroll = new QScrollArea(page);
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   grid_ = new ComponentsGrid(scroll);
   scroll->setWidget(grid_);
-  rows->addWidget(scroll, 1);
-  rows->addWidget(build_controls());
+  parts_->addWidget(scroll, 1);
+  controls_ = new QScrollArea(page);
+  controls_->setWidgetResizable(true);
+  controls_->setFrameShape(QFrame::NoFrame);
+  controls_->setFocusPolicy(Qt::NoFocus);
+  controls_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  controls_->setWidget(build_controls());
+  parts_->addWidget(controls_);
   pages_->addWidget(page);
 
   connect(grid_, &ComponentsGrid::chosen_changed, this, &ComponentsPanel::update_controls);
@@ -166,6 +173,17 @@ void ComponentsPanel::hideEvent(QHideEvent* event) {
   QWidget::hideEvent(event);
   wanting_ = false;
   emit wanted_changed();
+}
+
+// Wide and low, as below the graph: the controls stand beside the figures; else under them.
+void ComponentsPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  const bool beside = width() > 620;
+  parts_->setDirection(beside ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+  controls_->setMinimumWidth(beside ? 340 : 0);
+  controls_->setMaximumWidth(beside ? 340 : QWIDGETSIZE_MAX);
+  controls_->setMaximumHeight(beside ? QWIDGETSIZE_MAX : 190);
+  grid_->set_room(beside ? height() : 212);
 }
 
 void ComponentsPanel::find_wanted() {

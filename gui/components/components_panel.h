@@ -14,8 +14,10 @@
 #include "gui/timeline/playback.h"
 #include "gui/window/theme.h"
 
+class QBoxLayout;
 class QLabel;
 class QPushButton;
+class QScrollArea;
 class QSlider;
 class QSpinBox;
 class QStackedWidget;
@@ -40,6 +42,7 @@ class ComponentsPanel : public QWidget {
   void wanted_changed();
 
  protected:
+  void resizeEvent(QResizeEvent* event) override;
   void showEvent(QShowEvent* event) override;
   void hideEvent(QHideEvent* event) override;
 
@@ -67,6 +70,8 @@ class ComponentsPanel : public QWidget {
   std::string edit_node_;
   bool wanting_ = false;
 
+  QBoxLayout* parts_;
+  QScrollArea *scroll_, *controls_;
   QStackedWidget* pages_ = nullptr;
   QLabel *empty_ = nullptr, *target_ = nullptr, *told_ = nullptr, *scale_value_ = nullptr,
          *translate_value_ = nullptr;

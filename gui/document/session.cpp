@@ -125,7 +125,8 @@ void Session::save_as(const QString& path) {
 
 QString Session::autosave_path() const {
   const QString name =
-      "." + (page_->path.isEmpty() ? QString("untitled.kg.json") : QFileInfo(page_->path).fileName()) + ".autosave";
+      "." + (page_->path.isEmpty() ? QString("untitled.kg.json") : QFileInfo(page_->path).fileName()) +
+      ".autosave";
   const QFileInfo beside(folder());
   if (!page_->path.isEmpty() && beside.isWritable()) return QDir(folder()).filePath(name);
   const QString state = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation);

@@ -59,12 +59,14 @@ class Session : public QObject {
   QString page_title(int page) const;
   bool is_page_modified(int page) const;
   Diagnostics open_page(const QString& path);
+  void new_page();  // empty; the shown one where nothing was begun in it
   void show_page(int page);
   void close_page(int page);  // the last one becomes an empty graph
   // Files of open pages with unsaved changes that the shown graph uses, directly or deeper. Until they are
   // saved it is evaluated with what is open.
   std::vector<int> modified_inside() const;
-  // Graph files inside the shown graph, absolute. Those that changed on disk are read again by reopen_inside().
+  // Graph files inside the shown graph, absolute. Those that changed on disk are read again by
+  // reopen_inside().
   QStringList files_inside() const;
   void reopen_inside();
 

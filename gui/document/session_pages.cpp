@@ -56,6 +56,12 @@ Diagnostics Session::open_page(const QString& path) {
   return problems;
 }
 
+void Session::new_page() {
+  if (path().isEmpty() && document().nodes.empty() && !is_modified()) return clear();
+  pages_.insert(pages_.begin() + page() + 1, std::make_unique<Page>());
+  show_page(page() + 1);
+}
+
 void Session::show_page(int page) {
   if (page < 0 || page >= pages() || page == this->page()) return;
   if (autosave_.isActive()) write_autosave();

@@ -13,6 +13,8 @@
 namespace kinegraph {
 namespace {
 
+constexpr int figures_of_still = 5;
+constexpr std::size_t most_nodes_looked_at = 200;
 constexpr std::size_t memory_for_values = std::size_t(1) << 30;
 
 NodeStatus::State state_named(std::string_view name) {
@@ -37,7 +39,8 @@ void lower_priority_of_this_thread() {
 namespace {
 
 // Nodes that something is wrong with stand aside as missing, so that all that doesn't depend on them still
-// runs: half of the graphs that a person edits aren't whole. What is wrong and of no node stays in `problems`.
+// runs: half of the graphs that a person edits aren't whole. What is wrong and of no node stays in
+// `problems`.
 Plan plan_of_sound_part(EvaluationRequest& request, const Registry& registry, const PlanOptions& options,
                         std::map<std::string, Diagnostics>& left_out, Diagnostics& problems) {
   const auto set_aside = [&](const Diagnostics& found) {
@@ -75,6 +78,7 @@ struct Evaluation::Result {
   RunLog log;
   Diagnostics problems;
   std::map<std::string, ValuePtr> values;
+  std::map<std::string, std::shared_ptr<const Still>> stills;
   std::map<std::string, Diagnostics> left_out;  // nodes with problems that keep them from running
   bool effects = false;
   std::uint64_t generation = 0, graph = 0;
@@ -224,7 +228,139 @@ void Evaluation::run(EvaluationRequest request) {
         if (ValuePtr value = evaluator_.value(plan, target.node, port.name))
           result->values[target.node + "." + port.name] = std::move(value);
   }
+  for (const auto& [node, run] : result->log.nodes)
+    if (run.state == NodeState::done && node.find('/') == std::string::npos)
+      if (auto still = still_of(request, plan, node)) result->stills[node] = std::move(still);
+  for (const auto& [node, unused] : plan.passed)
+    if (request.document.nodes.count(node))
+      if (auto still = still_of(request, plan, node)) result->stills[node] = std::move(still);
   deliver(std::move(result));
+  if (!request.effects && !stop->stopped()) look_around(request, plan, *stop);
+}
+
+std::shared_ptr<const Still> Evaluation::still_of(const EvaluationRequest& request, const Plan& plan,
+                                                  const std::string& node) {
+  const auto found = request.document.nodes.find(node);
+  const NodeType* type =
+      found == request.document.nodes.end() ? nullptr : known_type(registry_, found->second);
+  if (!type || type->role == Role::pass) return nullptr;
+  for (const OutputPort& port : type->outputs) {
+    if (!port.type.empty() && port.type != "Motion") continue;
+    const auto motion = std::dynamic_pointer_cast<const Motion>(evaluator_.value(plan, node, port.name));
+    if (!motion) continue;
+    std::erase_if(stills_, [](const auto& known) { return known.second.first.expired(); });
+    auto& known = stills_[motion.get()];
+    if (!known.second) known = {motion, std::make_shared<Still>(make_still(*motion, figures_of_still))};
+    return known.second;
+  }
+  return nullptr;
+}
+
+void Evaluation::look_around(const EvaluationRequest& request, const Plan& plan, StopToken& stop) {
+  if (request.document.nodes.size() > most_nodes_looked_at) return;
+  auto seen = std::make_shared<Result>();
+  {
+    std::lock_guard lock(mutex_);
+    seen->generation = generation_;
+  }
+  seen->graph = request.graph;
+  std::vector<Target> cached;
+  for (const PlannedNode& node : plan.nodes) {
+    {
+      std::lock_guard lock(mutex_);
+      if (quitting_ || next_ || next_effects_) return;
+    }
+    if (!node.type || !node.enabled || node.type->outputs.empty() || !node.blocked.empty()) continue;
+    NodeRun run;
+    run.state = NodeState::done;
+    const std::string first = node.type->outputs.front().name;
+    try {
+      const Evaluator::Explained explained = evaluator_.explain(plan, node.name, first);
+      if (explained.cached != "memory" && explained.cached != "disk") continue;
+      run.outputs[first] = {.cached = explained.cached, .computed = true};
+    } catch (const Failure&) {
+      continue;  // it can't have a key yet: its file is missing
+    }
+    seen->log.nodes[node.name] = std::move(run);
+    if (node.type->outputs.front().type == "Motion" && request.document.nodes.count(node.name))
+      cached.push_back({node.name, first});
+  }
+  // What is on disk alone is read for its still.
+  evaluator_.run(plan, cached, {.keep_going = true}, {}, &stop);
+  for (const Target& target : cached)
+    if (auto still = still_of(request, plan, target.node)) seen->stills[target.node] = std::move(still);
+  QMetaObject::invokeMethod(
+      this,
+      [this, seen] {
+        {
+          std::lock_guard lock(mutex_);
+          if (seen->graph != graph_ || seen->generation != generation_) return;
+        }
+        for (const auto& [name, run] : seen->log.nodes) {
+          NodeStatus& status = statuses_[name];
+          if (status.state == NodeStatus::State::done && !status.cached.empty()) continue;
+          const auto still = status.still;
+          status = {};
+          status.state = NodeStatus::State::done;
+          status.still = still;
+          status.cached = run.outputs.begin()->second.cached;
+          emit status_changed(QString::fromStdString(name));
+        }
+        take_stills(seen->stills);
+        sum_up_graph_nodes();
+      },
+      Qt::QueuedConnection);
+}
+
+void Evaluation::take_stills(const std::map<std::string, std::shared_ptr<const Still>>& stills) {
+  for (const auto& [name, still] : stills) {
+    NodeStatus& status = statuses_[name];
+    if (status.still == still) continue;
+    status.still = still;
+    emit status_changed(QString::fromStdString(name));
+  }
+}
+
+// A Graph node stands as the nodes inside it do.
+void Evaluation::sum_up_graph_nodes() {
+  std::map<std::string, NodeStatus> sums;
+  const auto rank = [](NodeStatus::State state) {
+    using State = NodeStatus::State;
+    switch (state) {
+      case State::failed:
+        return 5;
+      case State::running:
+        return 4;
+      case State::missing:
+      case State::blocked:
+        return 3;
+      case State::waiting:
+        return 2;
+      case State::done:
+        return 1;
+      default:
+        return 0;
+    }
+  };
+  for (const auto& [name, status] : statuses_) {
+    const std::size_t slash = name.find('/');
+    if (slash == std::string::npos) continue;
+    auto [at, fresh] = sums.emplace(name.substr(0, slash), status);
+    if (fresh) continue;
+    NodeStatus& sum = at->second;
+    if (rank(status.state) > rank(sum.state)) {
+      sum.state = status.state;
+      sum.progress = status.progress;
+    }
+    sum.seconds += status.seconds;
+    if (status.cached == "no") sum.cached = "no";
+    for (const Diagnostic& problem : status.diagnostics) sum.diagnostics.push_back(problem);
+  }
+  for (auto& [name, sum] : sums) {
+    sum.still = statuses_[name].still;
+    statuses_[name] = sum;
+    emit status_changed(QString::fromStdString(name));
+  }
 }
 
 void Evaluation::deliver_status(const std::string& node, NodeStatus status, std::uint64_t generation) {
@@ -239,7 +375,9 @@ void Evaluation::deliver_status(const std::string& node, NodeStatus status, std:
         status.seconds = known.seconds;
         status.cached = known.cached;
         status.diagnostics = known.diagnostics;
+        status.still = known.still;
         known = std::move(status);
+        if (node.find('/') != std::string::npos) sum_up_graph_nodes();
         emit status_changed(QString::fromStdString(node));
       },
       Qt::QueuedConnection);
@@ -274,6 +412,8 @@ void Evaluation::deliver(std::shared_ptr<Result> result) {
           status.diagnostics = diagnostics;
           emit status_changed(QString::fromStdString(name));
         }
+        take_stills(result->stills);
+        sum_up_graph_nodes();
         log_ = std::move(result->log);
         problems_ = std::move(result->problems);
         emit values_changed();

@@ -13,6 +13,7 @@
 
 #include "graph/document.h"
 #include "graph/evaluate/evaluator.h"
+#include "gui/evaluation/still.h"
 
 namespace kinegraph {
 
@@ -22,7 +23,8 @@ struct NodeStatus {
   State state = State::idle;
   double progress = 0;  // 0 to 1 while running
   double seconds = 0;
-  std::string cached;  // "memory", "disk", "no", "" = not known
+  std::string cached;                  // "memory", "disk", "no", "" = not known
+  std::shared_ptr<const Still> still;  // of a node that gives a motion, once it is there
   Diagnostics diagnostics;
 };
 
@@ -32,7 +34,7 @@ struct EvaluationRequest {
   std::string file, folder;
   std::vector<Target> targets;
   std::uint64_t graph = 0;  // filled in by request()
-  bool effects = false;  // the Run button: Exports and Checks as well, into `folder`
+  bool effects = false;     // the Run button: Exports and Checks as well, into `folder`
 };
 
 class Evaluation : public QObject {
@@ -63,13 +65,21 @@ class Evaluation : public QObject {
 
  public:
   const RunLog& log() const { return log_; }
-  const Diagnostics& problems() const { return problems_; }  // of the graph as a whole, which keep it from running
+  const Diagnostics& problems() const {
+    return problems_;
+  }  // of the graph as a whole, which keep it from running
 
  private:
   struct Result;
   void work();  // the worker thread
   void run(EvaluationRequest request);
+  // States and stills of nodes that the caches know though nothing asked for them; gives way to any request.
+  void look_around(const EvaluationRequest& request, const Plan& plan, StopToken& stop);
+  std::shared_ptr<const Still> still_of(const EvaluationRequest& request, const Plan& plan,
+                                        const std::string& node);
   void deliver(std::shared_ptr<Result> result);
+  void take_stills(const std::map<std::string, std::shared_ptr<const Still>>& stills);
+  void sum_up_graph_nodes();
   void deliver_status(const std::string& node, NodeStatus status, std::uint64_t generation);
 
   const Registry& registry_;
@@ -85,6 +95,9 @@ class Evaluation : public QObject {
   std::shared_ptr<StopToken> running_;
   bool running_effects_ = false, quitting_ = false, busy_ = false;
   std::uint64_t generation_ = 0, graph_ = 0;  // counts requests, and graphs forgotten
+
+  // The worker's thread only: stills by what they were made of, kept while the value is known.
+  std::map<const Value*, std::pair<std::weak_ptr<const Value>, std::shared_ptr<const Still>>> stills_;
 
   // GUI thread only.
   std::map<std::string, NodeStatus> statuses_;

@@ -3,11 +3,15 @@
 #include <QCoreApplication>
 #include <QDir>
 #include <QDirIterator>
+#include <QFileDialog>
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLineEdit>
 #include <QMimeData>
+#include <QPushButton>
 #include <QUrl>
 #include <QVBoxLayout>
+#include <vector>
 
 #include "gui/window/icons.h"
 #include "gui/window/settings.h"
@@ -21,6 +25,14 @@ constexpr int path_role = Qt::UserRole;
 const QStringList& clip_endings() {
   static const QStringList endings{"*.bvh", "*.amc", "*.c3d", "*.trc", "*.glb", "*.gltf", "*.fbx"};
   return endings;
+}
+
+QStringList clips_in(const QString& folder) {
+  QDirIterator files(folder, clip_endings(), QDir::Files, QDirIterator::Subdirectories);
+  QStringList paths;
+  while (files.hasNext() && paths.size() < most_clips) paths << files.next();
+  paths.sort();
+  return paths;
 }
 
 // Files leave it as paths, so that any program takes them.
@@ -70,7 +82,25 @@ FilesPanel::FilesPanel(Session& session, QWidget* parent)
   tree_->setDragEnabled(true);
   tree_->setDragDropMode(QAbstractItemView::DragOnly);
   tree_->setTextElideMode(Qt::ElideMiddle);
-  column->addWidget(filter_);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(6);
+  auto* more = new QPushButton(tr("Add a folder…"), this);
+  more->setAccessibleName(tr("Add a folder of clips"));
+  more->setToolTip(tr("Lists the clips of another folder too"));
+  row->addWidget(filter_, 1);
+  row->addWidget(more);
+  column->addLayout(row);
+  connect(more, &QPushButton::clicked, this, [this] {
+    const QString folder =
+        QFileDialog::getExistingDirectory(this, tr("A folder of clips"), session_.folder());
+    if (folder.isEmpty()) return;
+    const auto settings = user_settings();
+    QStringList folders = settings->value("assets").toStringList();
+    if (!folders.contains(folder)) folders << folder;
+    settings->setValue("assets", folders);
+    settings->sync();
+    fill();
+  });
   column->addWidget(tree_, 1);
   connect(filter_, &QLineEdit::textChanged, this, &FilesPanel::fill);
   connect(tree_, &QTreeWidget::itemActivated, this, [this](QTreeWidgetItem* item) {
@@ -122,14 +152,18 @@ void FilesPanel::fill() {
   // The clips beside the graph, or of the examples where there is no graph.
   const QString clips = session_.path().isEmpty() ? folder : folder_;
   auto* found = section(tr("Clips"));
-  if (!clips.isEmpty()) {
-    QDirIterator files(clips, clip_endings(), QDir::Files, QDirIterator::Subdirectories);
-    QStringList paths;
-    while (files.hasNext() && paths.size() < most_clips) paths << files.next();
-    paths.sort();
-    for (const QString& path : paths) add(found, path, QDir(clips).relativeFilePath(path), Sign::clip);
+  if (!clips.isEmpty())
+    for (const QString& path : clips_in(clips))
+      add(found, path, QDir(clips).relativeFilePath(path), Sign::clip);
+  std::vector<QTreeWidgetItem*> sections{recent, examples, found};
+  for (const QString& assets : user_settings()->value("assets").toStringList()) {
+    if (!QDir(assets).exists()) continue;
+    sections.push_back(section(QDir(assets).dirName()));
+    sections.back()->setToolTip(0, QDir::toNativeSeparators(assets));
+    for (const QString& path : clips_in(assets))
+      add(sections.back(), path, QDir(assets).relativeFilePath(path), Sign::clip);
   }
-  for (QTreeWidgetItem* item : {recent, examples, found}) {
+  for (QTreeWidgetItem* item : sections) {
     item->setExpanded(true);
     if (item->childCount()) continue;
     auto* none = new QTreeWidgetItem(item, {wanted.isEmpty() ? tr("none yet") : tr("none of that name")});

@@ -220,7 +220,10 @@ void ParameterPanel::refresh() {
   if (found == session_.document().nodes.end()) return;
   const Node& node = found->second;
   if (!name_->hasFocus()) name_->setText(QString::fromStdString(node_));
-  if (!note_->hasFocus()) note_->setText(QString::fromStdString(node.note));
+  if (!note_->hasFocus()) {
+    note_->setText(QString::fromStdString(node.note));
+    note_->setCursorPosition(0);
+  }
   enabled_->setChecked(node.enabled);
   enabled_->setEnabled(!node.missing);
   const NodeType* known = type();

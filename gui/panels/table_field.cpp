@@ -11,6 +11,7 @@
 #include <set>
 
 #include "gui/panels/param_field.h"
+#include "gui/panels/variants.h"
 
 namespace kinegraph {
 namespace {
@@ -64,6 +65,10 @@ class TableField : public ParamField {
     } else if (objects_) {
       columns_ = element.parts;
       for (const ParamType& field : element.parts) titles << QString::fromStdString(field.name);
+    } else if (has_variants(element)) {
+      variants_ = element;
+      columns_ = {choice_of_variants(element), text("")};
+      titles << QString::fromStdString(columns_[0].name) << tr("of what, and how");
     } else {
       columns_ = {element};
     }
@@ -77,6 +82,7 @@ class TableField : public ParamField {
     table_->horizontalHeader()->setVisible(!titles.isEmpty());
     table_->horizontalHeader()->setSectionResizeMode(columns_.size() > 4 ? QHeaderView::ResizeToContents
                                                                          : QHeaderView::Stretch);
+    if (variants_) table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
     table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setTabKeyNavigation(false);
@@ -140,6 +146,12 @@ class TableField : public ParamField {
       for (const Json& one : value_.array()) {
         const int row = table_->rowCount();
         table_->insertRow(row);
+        if (variants_) {
+          set_cell(row, 0, variant_key(*variants_, one));
+          set_cell(row, 1, variant_text(*variants_, one));
+          table_->item(row, 1)->setToolTip(table_->item(row, 1)->text());
+          continue;
+        }
         if (!objects_) {
           set_cell(row, 0, typed_text(one));
           continue;
@@ -176,6 +188,13 @@ class TableField : public ParamField {
       if (!type.fallback && !type.choices.empty()) start = QString::fromStdString(type.choices.front().key);
       set_cell(row, int(i), start);
     }
+    if (variants_) {
+      set_cell(row, 1, fresh_variant_text(*variants_, cell(row, 0), Json(Json::Object{})));
+      showing_ = false;
+      changed(row, 1);
+      table_->setCurrentCell(row, 0);
+      return;
+    }
     showing_ = false;
     fit();
     table_->setCurrentCell(row, 0);
@@ -206,10 +225,21 @@ class TableField : public ParamField {
   }
 
   // A row is taken over once all of it fits; until then it says what is missing.
-  void changed(int row, int) {
+  void changed(int row, int column) {
     QString why;
     std::optional<Json> element;
-    if (objects_) {
+    if (variants_) {
+      const bool known = std::size_t(row) < value_.array().size();
+      if (column == 0) {
+        // Another form: what both have stays.
+        showing_ = true;
+        set_cell(row, 1,
+                 fresh_variant_text(*variants_, cell(row, 0),
+                                    known ? value_.array()[std::size_t(row)] : Json(Json::Object{})));
+        showing_ = false;
+      }
+      element = variant_of(*variants_, cell(row, 0), cell(row, 1), &why);
+    } else if (objects_) {
       Json::Object object;
       for (std::size_t i = 0; i < columns_.size(); ++i) {
         if (cell(row, int(i)).isEmpty() &&
@@ -259,6 +289,7 @@ class TableField : public ParamField {
   ParamType type_;
   QTableWidget* table_;
   std::vector<ParamType> columns_;
+  std::optional<ParamType> variants_;  // of a row: objects of several forms
   bool by_name_ = false, objects_ = false, showing_ = false, adding_ = false;
   Json value_ = Json(Json::Array{});
 };

@@ -43,8 +43,11 @@ std::vector<FlatPoint> flat_paths(const Scene& scene, QVector3D eye) {
       sides[i] = QVector3D::crossProduct(along, eye - path.points[i]).normalized() * (path.width / 2);
     }
     for (std::size_t i = 0; i + 1 < count; ++i) {
-      const float from = static_cast<float>(i) / static_cast<float>(count - 1);
-      const float to = static_cast<float>(i + 1) / static_cast<float>(count - 1);
+      // Quick from nothing, so that most of it is seen.
+      const auto share = [&](std::size_t at) {
+        return path.strength * std::sqrt(static_cast<float>(at) / static_cast<float>(count - 1));
+      };
+      const float from = share(i), to = share(i + 1);
       const FlatPoint a = point_of(path.points[i] - sides[i], path.color, from);
       const FlatPoint b = point_of(path.points[i] + sides[i], path.color, from);
       const FlatPoint c = point_of(path.points[i + 1] - sides[i + 1], path.color, to);

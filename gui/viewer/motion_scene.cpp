@@ -90,14 +90,20 @@ void add_trails(Scene& scene, const ShownMotion& motion, int frame, const SceneL
   const int back = std::max(2, static_cast<int>(motion.fps * 1.5)), step = std::max(1, back / 90);
   for (int point : trailed_points(motion)) {
     ScenePath path;
-    path.width = static_cast<float>(0.006 * motion.size);
+    path.width = static_cast<float>(0.009 * motion.size);
     path.color = point == 0 ? theme.accent.rgb()
                             : side_color(motion.sides[static_cast<std::size_t>(point)], looks, theme);
-    for (int t = std::max(0, frame - back); t <= frame; t += step) {
+    ScenePath ahead = path;
+    ahead.width *= 0.6f;
+    ahead.strength = 0.45f;
+    const auto add = [&](ScenePath& to, int t) {
       const QVector3D at = vector_of(motion.at(t, point)) + looks.shift;
-      if (!std::isnan(at.x())) path.points.push_back(at);
-    }
+      if (!std::isnan(at.x())) to.points.push_back(at);
+    };
+    for (int t = std::max(0, frame - back); t <= frame; t += step) add(path, t);
+    for (int t = std::min(motion.frames - 1, frame + back); t >= frame; t -= step) add(ahead, t);
     scene.paths.push_back(std::move(path));
+    scene.paths.push_back(std::move(ahead));
   }
 }
 

@@ -60,6 +60,7 @@ void PictureMaker::request(ScenePicture picture) {
   {
     std::lock_guard lock(mutex_);
     next_ = std::move(picture);
+    busy_ = true;
   }
   wake_.notify_all();
 }
@@ -115,6 +116,9 @@ void PictureMaker::run() {
       finished_.notify_all();
     } else {
       emit made(draw(*picture));
+      ++drawn_;
+      std::lock_guard lock(mutex_);
+      busy_ = next_.has_value();
     }
   }
   painter.reset();

@@ -27,6 +27,9 @@ class PictureMaker : public QThread {
   void request(ScenePicture picture);
   // Waits for this one picture.
   QImage make_now(ScenePicture picture);
+  // Pictures drawn so far, and whether one that was asked for is still to come.
+  int drawn() const { return drawn_; }
+  bool is_busy() const { return busy_; }
   bool uses_opengl() const { return opengl_; }
 
  signals:
@@ -47,7 +50,8 @@ class PictureMaker : public QThread {
   std::optional<ScenePicture> next_;
   Urgent* urgent_ = nullptr;
   bool quitting_ = false;
-  std::atomic<bool> opengl_ = false;
+  std::atomic<bool> opengl_ = false, busy_ = false;
+  std::atomic<int> drawn_ = 0;
 };
 
 }  // namespace kinegraph

@@ -148,12 +148,28 @@ void paint_floor(QPainter& painter, const Projector& eye, const Scene& scene, co
     }
 }
 
+// All triangles the same way round, so that they unite.
+void add_mesh_shadow(QPainterPath& path, const Projector& eye, const PosedMesh& mesh, float floor) {
+  const auto at = [&](std::uint32_t v) {
+    return on_floor(QVector3D(mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]),
+                    floor);
+  };
+  for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    const QVector3D a = at(mesh.triangles[i]), b = at(mesh.triangles[i + 1]), c = at(mesh.triangles[i + 2]);
+    if (!eye.visible(a) || !eye.visible(b) || !eye.visible(c)) continue;
+    const QPointF p = eye.spot(a), q = eye.spot(b), r = eye.spot(c);
+    const double turn = (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
+    path.addPolygon(turn > 0 ? QPolygonF{p, q, r, p} : QPolygonF{p, r, q, p});
+  }
+}
+
 void paint_shadows(QPainter& painter, const Projector& eye, const Scene& scene, const SceneColors& colors) {
   // Winding: what overlaps is darkened once.
   QPainterPath all;
   all.setFillRule(Qt::WindingFill);
   for (const SceneFigure& figure : scene.figures) {
     if (!figure.shadow) continue;
+    if (figure.mesh) add_mesh_shadow(all, eye, *figure.mesh, scene.floor);
     for (const SceneCapsule& c : figure.capsules) {
       const QVector3D a = on_floor(c.a, scene.floor), b = on_floor(c.b, scene.floor);
       if (!eye.visible(a) || !eye.visible(b)) continue;

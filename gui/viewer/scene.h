@@ -36,6 +36,7 @@ struct ScenePath {
   std::vector<QVector3D> points;
   QRgb color = 0xffffffff;
   float width = 0.01f;
+  float strength = 1;  // of its end
 };
 
 // A mark on the floor.

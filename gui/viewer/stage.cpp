@@ -12,7 +12,7 @@ constexpr int rest_ms = 180;      // without a new picture until it is drawn smo
 constexpr double line_reach = 8;  // pixels around the wipe's line that take hold of it
 }  // namespace
 
-Stage::Stage(QWidget* parent) : QWidget(parent), theme_(&dark_theme()) {
+Stage::Stage(QWidget* parent) : QWidget(parent), maker_(this), theme_(&dark_theme()) {
   setMinimumSize(160, 120);
   setMouseTracking(true);
   setAttribute(Qt::WA_OpaquePaintEvent);

@@ -15,6 +15,7 @@
 #include "gui/viewer/looked_at.h"
 #include "gui/viewer/motion_scene.h"
 #include "gui/viewer/stage.h"
+#include "gui/window/icons.h"
 
 namespace kinegraph {
 namespace {
@@ -35,6 +36,13 @@ Viewer::Viewer(Session& session, Evaluation& evaluation, Playback& playback, QWi
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(tr("Viewer"));
   build();
+  // Of another graph nothing stays on the stage, even where its nodes have the same names.
+  connect(&session_, &Session::page_changed, this, [this] {
+    shown_.clear();
+    pins_.fill({});
+    looked_at_.clear();
+    framed_ = false;
+  });
   connect(&session_, &Session::selection_changed, this, &Viewer::find_wanted);
   connect(&session_, &Session::meaning_changed, this, &Viewer::find_wanted);
   connect(&evaluation_, &Evaluation::values_changed, this, &Viewer::take_values);
@@ -77,6 +85,15 @@ void Viewer::build() {
   build_show_menu();
   bar->addWidget(show_);
 
+  for (QAction* action : {follow_, frame_})
+    if (QWidget* button = bar->widgetForAction(action)) {
+      button->setAccessibleName(action->text());
+      button->setFocusPolicy(Qt::TabFocus);
+    }
+  bar->setIconSize({16, 16});
+  bar->setObjectName("viewer_bar");
+  bar->setContextMenuPolicy(Qt::PreventContextMenu);
+
   words_ = new QLabel(stage_);
   words_->setAlignment(Qt::AlignCenter);
   words_->setWordWrap(true);
@@ -96,7 +113,7 @@ void Viewer::build_places(QToolBar& bar) {
     connect(action, &QAction::triggered, this, [this, place] { toggle_pin(place); });
     place_actions_[static_cast<std::size_t>(place - 1)] = action;
     if (QWidget* button = bar.widgetForAction(action)) {
-      button->setFixedWidth(20);
+      button->setFixedWidth(18);
       button->setStyleSheet("padding: 4px 0;");
       button->setAccessibleName(tr("Place %1").arg(place));
     }
@@ -105,7 +122,7 @@ void Viewer::build_places(QToolBar& bar) {
 
 void Viewer::build_show_menu() {
   show_ = new QToolButton(this);
-  show_->setText(tr("Show"));
+  show_->setStyleSheet("QToolButton::menu-indicator { image: none; }");
   show_->setToolTip(tr("Trails, ghosts, contacts, stretch"));
   show_->setAccessibleName(tr("What is shown beside the body"));
   show_->setPopupMode(QToolButton::InstantPopup);
@@ -147,6 +164,9 @@ void Viewer::set_theme(const Theme& theme) {
   colors.setColor(QPalette::WindowText, theme.faint_text);
   words_->setPalette(colors);
   stage_->set_colors(colors_of(theme), theme);
+  follow_->setIcon(icon(Sign::follow, theme));
+  frame_->setIcon(icon(Sign::frame, theme));
+  show_->setIcon(icon(Sign::eye, theme));
   update_scene();
 }
 
@@ -202,11 +222,15 @@ void Viewer::frame_all() {
   for (const Shown& one : shown_) {
     if (!one.motion) continue;
     const int frame = one.motion->frame_at(playback_.time());
+    // A skin is thicker than the joints it hangs on, most of all around the head.
+    const float skin = one.character ? 0.14f * static_cast<float>(one.motion->size) : 0;
     SceneBox its = looks_.follow ? box_at(*one.motion, frame) : box_of(*one.motion);
     if (looks_.follow) {
       its.low -= ground_under(*one.motion, frame);
       its.high -= ground_under(*one.motion, frame);
     }
+    its.high += QVector3D(0.3f * skin, skin, 0.3f * skin);
+    its.low -= QVector3D(0.3f * skin, 0, 0.3f * skin);
     if (first) box = its;
     first = false;
     for (int axis = 0; axis < 3; ++axis) {

@@ -71,6 +71,26 @@ void draw(QPainter& p, Sign sign, const Theme& theme) {
       p.drawLine(QPointF(4, 4), QPointF(12, 12));
       p.drawLine(QPointF(12, 4), QPointF(4, 12));
       break;
+    case Sign::follow:
+      p.drawEllipse(QPointF(8, 8), 4, 4);
+      for (const QPointF& way : {QPointF(0, 1), QPointF(0, -1), QPointF(1, 0), QPointF(-1, 0)})
+        p.drawLine(QPointF(8, 8) + 3 * way, QPointF(8, 8) + 6.5 * way);
+      break;
+    case Sign::frame:
+      p.drawPolyline(QPolygonF({{2.5, 6}, {2.5, 2.5}, {6, 2.5}}));
+      p.drawPolyline(QPolygonF({{10, 2.5}, {13.5, 2.5}, {13.5, 6}}));
+      p.drawPolyline(QPolygonF({{13.5, 10}, {13.5, 13.5}, {10, 13.5}}));
+      p.drawPolyline(QPolygonF({{6, 13.5}, {2.5, 13.5}, {2.5, 10}}));
+      break;
+    case Sign::eye: {
+      QPainterPath lids(QPointF(1.5, 8));
+      lids.cubicTo(5, 2.6, 11, 2.6, 14.5, 8);
+      lids.cubicTo(11, 13.4, 5, 13.4, 1.5, 8);
+      p.drawPath(lids);
+      p.setBrush(p.pen().color());
+      p.drawEllipse(QPointF(8, 8), 1.6, 1.6);
+      break;
+    }
     case Sign::tree:
       p.drawPolyline(QPolygonF({{3.5, 3}, {3.5, 12.5}, {7, 12.5}}));
       p.drawLine(QPointF(3.5, 7.5), QPointF(7, 7.5));

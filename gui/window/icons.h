@@ -6,7 +6,25 @@
 
 namespace kinegraph {
 
-enum class Sign { run, stop, undo, redo, add, theme, open, save, reset, publish, folder, clip, remove, tree };
+enum class Sign {
+  run,
+  stop,
+  undo,
+  redo,
+  add,
+  theme,
+  open,
+  save,
+  reset,
+  publish,
+  folder,
+  clip,
+  remove,
+  tree,
+  follow,
+  frame,
+  eye
+};
 QIcon icon(Sign sign, const Theme& theme);
 
 }  // namespace kinegraph

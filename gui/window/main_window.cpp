@@ -8,11 +8,14 @@
 #include <QProgressBar>
 #include <QSettings>
 #include <QStatusBar>
+#include <QTabBar>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "graph/nested.h"
 #include "gui/viewer/looked_at.h"
 #include "gui/window/settings.h"
+#include "gui/window/welcome.h"
 
 // Resources of a library are only there when they are asked for.
 static void load_pictures() {
@@ -28,19 +31,29 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
       evaluation_(registry, options.cache_folder),
       theme_(&dark_theme()),
       canvas_(new GraphCanvas(session_, evaluation_)),
+      page_tabs_(new QTabBar),
+      welcome_(new Welcome(canvas_)),
       notice_(new NoticeBar),
       state_text_(new QLabel),
       hover_text_(new QLabel),
       progress_(new QProgressBar) {
   load_pictures();
   setObjectName("main_window");
-  setDockNestingEnabled(true);
+  setDockOptions(QMainWindow::AllowNestedDocks | QMainWindow::AllowTabbedDocks |
+                 QMainWindow::GroupedDragging);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   setAcceptDrops(true);
   auto* middle = new QWidget;
   auto* column = new QVBoxLayout(middle);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
+  page_tabs_->setObjectName("pages");
+  page_tabs_->setAccessibleName(tr("Open graphs"));
+  page_tabs_->setTabsClosable(true);
+  page_tabs_->setDrawBase(false);
+  page_tabs_->setExpanding(false);
+  page_tabs_->setFocusPolicy(Qt::TabFocus);
+  column->addWidget(page_tabs_);
   column->addWidget(notice_);
   column->addWidget(canvas_, 1);
   setCentralWidget(middle);
@@ -66,8 +79,20 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   make_menus();
 
   connect(canvas_, &GraphCanvas::hovered_text, hover_text_, &QLabel::setText);
-  connect(canvas_, &GraphCanvas::file_dropped, this, [this](const QString& path) {
-    if (may_discard()) open(path);
+  connect(canvas_, &GraphCanvas::file_dropped, this, &MainWindow::open);
+  connect(canvas_, &GraphCanvas::opened_inside, this,
+          [this](const QString& node) { open_inside(node.toStdString()); });
+  connect(welcome_, &Welcome::chosen, this, &MainWindow::open);
+  connect(page_tabs_, &QTabBar::currentChanged, &session_, &Session::show_page);
+  connect(page_tabs_, &QTabBar::tabCloseRequested, this, &MainWindow::close_page);
+  connect(&session_, &Session::page_changed, this, [this] {
+    evaluation_.forget();
+    notice_->hide();
+    canvas_->frame_all();
+  });
+  connect(&session_, &Session::changed, this, [this] {
+    welcome_->show_where(session_.document().nodes.empty() && session_.document().ui.notes.empty() &&
+                         !session_.is_read_only());
   });
   connect(&session_, &Session::changed, this, &MainWindow::update_actions);
   connect(&session_, &Session::selection_changed, this, &MainWindow::update_actions);
@@ -93,7 +118,11 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   reload_.setInterval(150);
   connect(&watcher_, &QFileSystemWatcher::fileChanged, this, &MainWindow::file_changed_on_disk);
   connect(&session_, &Session::meaning_changed, this, &MainWindow::watch_files);
-  connect(&reload_, &QTimer::timeout, this, &MainWindow::evaluate);
+  connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, &MainWindow::file_changed_on_disk);
+  connect(&reload_, &QTimer::timeout, this, [this] {
+    if (std::exchange(inside_changed_, false)) session_.reopen_inside();
+    evaluate();
+  });
 
   resize(1280, 800);
   bool dark = true;
@@ -110,13 +139,17 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   canvas_->setFocus();
 }
 
-MainWindow::~MainWindow() = default;
+// What is being typed ends with the window, while there is still a session to take it.
+MainWindow::~MainWindow() {
+  hide();
+}
 
 void MainWindow::set_theme(const Theme& theme) {
   theme_ = &theme;
   qApp->setPalette(theme.palette());
   qApp->setStyleSheet(theme.style_sheet());
   canvas_->set_theme(theme);
+  welcome_->set_theme(theme);
   for (const auto& apply_theme : themed_) apply_theme(theme);
   update_icons();
   emit theme_changed();
@@ -190,12 +223,13 @@ void MainWindow::update_progress() {
 }
 
 void MainWindow::update_title() {
+  update_pages();
   setWindowTitle(tr("%1[*] – Kinegraph").arg(session_.title()));
   setWindowModified(session_.is_modified());
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (options_.ask && !may_discard()) {
+  if (options_.ask && !may_discard_all()) {
     event->ignore();
     return;
   }
@@ -216,7 +250,7 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 
 void MainWindow::dropEvent(QDropEvent* event) {
   for (const QUrl& url : event->mimeData()->urls())
-    if (url.toLocalFile().endsWith(".kg.json") && may_discard()) {
+    if (url.toLocalFile().endsWith(".kg.json")) {
       open(url.toLocalFile());
       return;
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gui/canvas/graph_canvas.h"
+#include "gui/document/known_files.h"
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
 #include "gui/timeline/playback.h"
@@ -17,8 +18,12 @@
 class QDockWidget;
 class QLabel;
 class QProgressBar;
+class QTabBar;
 
 namespace kinegraph {
+
+struct ActionRow;
+class Welcome;
 
 class MainWindow : public QMainWindow {
   Q_OBJECT
@@ -39,6 +44,7 @@ class MainWindow : public QMainWindow {
   const Theme& theme() const { return *theme_; }
 
   bool open(const QString& path);  // false: it can't be opened, and the person was told
+  void offer_autosave();           // of the shown graph, where there is one
   void set_theme(const Theme& theme);
   void show_dock(const QString& name);  // "Parameters"
   QStringList dock_names() const;
@@ -61,22 +67,33 @@ class MainWindow : public QMainWindow {
   template <class Room>
   QDockWidget* add_room(Room* room, const QString& title, Qt::DockWidgetArea area);
   QDockWidget* add_dock(QWidget* widget, const QString& title, Qt::DockWidgetArea area);
+  QDockWidget* dock(const QString& name) const;
   void make_docks();
   void make_actions();
   void make_menus();
-  QAction* make(const QString& name, const QString& text, const QKeySequence& key, std::function<void()> act,
-                QWidget* where = nullptr);
+  void make_action(const ActionRow& row, std::function<void()> act);
   void update_actions();
   void update_title();
   void update_progress();
   void update_icons();
+  void update_pages();
+  void update_dock_titles();
+  void usual_layout();
+  void go_to_dock(const QString& name);
 
   void new_graph();
   void choose_and_open();
   bool save();
   bool save_as();
-  bool may_discard();  // asks about unsaved changes
-  void offer_autosave();
+  bool may_discard();  // asks about unsaved changes of the shown graph
+  bool may_discard_all();
+  void close_page(int page);
+  void open_inside(const std::string& node);  // a Graph node's file, in a page
+  void collapse_selected();
+  void relink();  // looks for files that are missing
+  void offer_missing_files();
+  bool save_what_is_inside();  // false: the person would rather not run
+  void offer_merge(const std::string& now);
   void run_effects();
   void ran_effects();
   void remember_recent(const QString& path);
@@ -94,6 +111,8 @@ class MainWindow : public QMainWindow {
   Playback playback_;
   const Theme* theme_;
   GraphCanvas* canvas_;
+  QTabBar* page_tabs_;
+  Welcome* welcome_;
   NoticeBar* notice_;
   QLabel* state_text_;
   QLabel* hover_text_;
@@ -104,8 +123,8 @@ class MainWindow : public QMainWindow {
   std::vector<std::function<std::vector<Target>()>> wants_;
   QFileSystemWatcher watcher_;
   QTimer reload_;
-  std::string text_on_disk_;
-  bool evaluation_due_ = false;
+  KnownFiles known_files_;
+  bool evaluation_due_ = false, inside_changed_ = false;
 };
 
 }  // namespace kinegraph

@@ -1,34 +1,35 @@
-// Every command with its name, key and place in menus and toolbar.
+// The actions of the table, bound to what does them; menus and toolbar.
+#include <QDialogButtonBox>
 #include <QDockWidget>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QTextBrowser>
 #include <QToolBar>
 #include <QToolButton>
+#include <QVBoxLayout>
 
+#include "gui/window/actions.h"
 #include "gui/window/main_window.h"
 
 namespace kinegraph {
 
-QAction* MainWindow::make(const QString& name, const QString& text, const QKeySequence& key,
-                          std::function<void()> act, QWidget* where) {
-  auto* made = new QAction(text, this);
-  made->setObjectName("action_" + name);
-  if (!key.isEmpty()) made->setShortcut(key);
-  QString plain = text;
-  plain.remove('&').remove("…");
-  made->setToolTip(key.isEmpty() ? plain
-                                 : QString("%1 (%2)").arg(plain, key.toString(QKeySequence::NativeText)));
+void MainWindow::make_action(const ActionRow& row, std::function<void()> act) {
+  auto* made = new QAction(tr(row.text), this);
+  made->setObjectName(QString("action_") + row.name);
+  const QKeySequence keys(row.keys);
+  made->setShortcut(keys);
+  made->setToolTip(QString("%1 (%2)").arg(tr(row.what), keys.toString(QKeySequence::NativeText)));
+  made->setStatusTip(tr(row.what));
   connect(made, &QAction::triggered, this, [act = std::move(act)] { act(); });
-  if (where) {
+  if (row.where == ActionRow::Where::graph) {
     // Keys of one letter belong to the canvas alone.
     made->setShortcutContext(Qt::WidgetShortcut);
-    where->addAction(made);
+    canvas_->addAction(made);
   } else {
     addAction(made);
   }
-  actions_[name] = made;
-  return made;
+  actions_[row.name] = made;
 }
 
 QAction* MainWindow::action(const QString& name) const {
@@ -38,81 +39,79 @@ QAction* MainWindow::action(const QString& name) const {
 
 void MainWindow::make_actions() {
   GraphCanvas* c = canvas_;
-  make("new", tr("&New"), QKeySequence::New, [this] { new_graph(); });
-  make("open", tr("&Open…"), QKeySequence::Open, [this] { choose_and_open(); });
-  make("save", tr("&Save"), QKeySequence::Save, [this] { save(); });
-  make("save_as", tr("Save &as…"), QKeySequence("Ctrl+Shift+S"), [this] { save_as(); });
-  make("quit", tr("&Quit"), QKeySequence("Ctrl+Q"), [this] { close(); });
-  make("undo", tr("&Undo"), QKeySequence::Undo, [this] { session_.undo(); });
-  make("redo", tr("&Redo"), QKeySequence("Ctrl+Shift+Z"), [this] { session_.redo(); });
-  make("run", tr("&Run"), QKeySequence("F5"), [this] { run_effects(); });
-  make("cancel", tr("&Cancel"), QKeySequence("Ctrl+."), [this] { evaluation_.cancel(); });
-  make("theme", tr("Light &theme"), QKeySequence("Ctrl+T"),
-       [this] { set_theme(theme_->dark ? light_theme() : dark_theme()); });
-  make("canvas", tr("Go to the graph"), QKeySequence("Ctrl+1"),
-       [this] { canvas_->setFocus(Qt::ShortcutFocusReason); });
-  make("keys", tr("&Keys and mouse"), QKeySequence::HelpContents, [this] { show_keys(); });
-  make("about", tr("&About Kinegraph"), {}, [this] { about(); });
-
-  make(
-      "add", tr("&Add a node…"), QKeySequence("Shift+A"), [c] { c->add_by_search(); }, c);
-  make(
-      "delete", tr("&Delete, reconnecting"), QKeySequence::Delete, [c] { c->remove_selected(); }, c);
-  make(
-      "cut", tr("Cu&t"), QKeySequence::Cut, [c] { c->cut_selected(); }, c);
-  make(
-      "copy", tr("&Copy"), QKeySequence::Copy, [c] { c->copy_selected(); }, c);
-  make(
-      "paste", tr("&Paste"), QKeySequence::Paste, [c] { c->paste(); }, c);
-  make(
-      "duplicate", tr("Du&plicate"), QKeySequence("Ctrl+D"), [c] { c->duplicate(); }, c);
-  make(
-      "select_all", tr("Select &all"), QKeySequence::SelectAll, [c] { c->select_all(); }, c);
-  make(
-      "rename", tr("Re&name…"), QKeySequence("F2"), [c] { c->rename_selected(); }, c);
-  make(
-      "enable", tr("&Disable or enable"), QKeySequence("D"), [c] { c->toggle_enabled(); }, c);
-  make(
-      "color", tr("&Colour…"), QKeySequence("C"), [c] { c->choose_color(); }, c);
-  make(
-      "note", tr("&Note"), QKeySequence("N"), [c] { c->add_note(); }, c);
-  make(
-      "group", tr("&Group in a frame"), QKeySequence("G"), [c] { c->group_in_frame(); }, c);
-  make(
-      "link", tr("&Link to…"), QKeySequence("L"), [c] { c->link_by_search(); }, c);
-  make(
-      "take_out", tr("Take &out of its links"), QKeySequence("X"), [c] { c->take_out_selected(); }, c);
-  make(
-      "arrange", tr("A&rrange"), QKeySequence("Ctrl+L"), [c] { c->arrange(); }, c);
-  make(
-      "find", tr("&Find a node…"), QKeySequence::Find, [c] { c->find_node(); }, c);
-  make(
-      "frame", tr("Show &selection"), QKeySequence("F"), [c] { c->frame_selected(); }, c);
-  make(
-      "frame_all", tr("Show &all"), QKeySequence("A"), [c] { c->frame_all(); }, c);
+  const auto go = [this](const char* dock) { return [this, dock] { go_to_dock(dock); }; };
+  const std::map<std::string, std::function<void()>> acts = {
+      {"new", [this] { new_graph(); }},
+      {"open", [this] { choose_and_open(); }},
+      {"save", [this] { save(); }},
+      {"save_as", [this] { save_as(); }},
+      {"relink", [this] { relink(); }},
+      {"close_page", [this] { close_page(session_.page()); }},
+      {"quit", [this] { close(); }},
+      {"undo", [this] { session_.undo(); }},
+      {"redo", [this] { session_.redo(); }},
+      {"cut", [c] { c->cut_selected(); }},
+      {"copy", [c] { c->copy_selected(); }},
+      {"paste", [c] { c->paste(); }},
+      {"duplicate", [c] { c->duplicate(); }},
+      {"delete", [c] { c->remove_selected(); }},
+      {"select_all", [c] { c->select_all(); }},
+      {"find", [c] { c->find_node(); }},
+      {"add", [c] { c->add_by_search(); }},
+      {"link", [c] { c->link_by_search(); }},
+      {"take_out", [c] { c->take_out_selected(); }},
+      {"rename", [c] { c->rename_selected(); }},
+      {"enable", [c] { c->toggle_enabled(); }},
+      {"color", [c] { c->choose_color(); }},
+      {"note", [c] { c->add_note(); }},
+      {"group", [c] { c->group_in_frame(); }},
+      {"collapse", [this] { collapse_selected(); }},
+      {"open_inside", [this] { open_inside(session_.current()); }},
+      {"arrange", [c] { c->arrange(); }},
+      {"run", [this] { run_effects(); }},
+      {"cancel", [this] { evaluation_.cancel(); }},
+      {"frame", [c] { c->frame_selected(); }},
+      {"frame_all", [c] { c->frame_all(); }},
+      {"zoom_in", [c] { c->zoom_at(QRectF(c->rect()).center(), 1); }},
+      {"zoom_out", [c] { c->zoom_at(QRectF(c->rect()).center(), -1); }},
+      {"next_page", [this] { session_.show_page((session_.page() + 1) % session_.pages()); }},
+      {"previous_page",
+       [this] { session_.show_page((session_.page() + session_.pages() - 1) % session_.pages()); }},
+      {"go_graph", [c] { c->setFocus(Qt::ShortcutFocusReason); }},
+      {"go_viewer", go("Viewer")},
+      {"go_timeline", go("Timeline")},
+      {"go_parameters", go("Parameters")},
+      {"go_components", go("Components")},
+      {"go_curves", go("Curves")},
+      {"go_problems", go("Problems")},
+      {"go_files", go("Files")},
+      {"play", [this] { playback_.toggle(); }},
+      {"theme", [this] { set_theme(theme_->dark ? light_theme() : dark_theme()); }},
+      {"reset_layout", [this] { usual_layout(); }},
+      {"keys", [this] { show_keys(); }},
+      {"about", [this] { about(); }},
+  };
+  for (const ActionRow& row : all_actions())
+    if (const auto act = acts.find(row.name); act != acts.end()) make_action(row, act->second);
 }
 
 void MainWindow::make_menus() {
-  const auto fill = [this](QMenu* menu, const QStringList& names) {
-    for (const QString& name : names)
-      if (name.isEmpty())
-        menu->addSeparator();
-      else
-        menu->addAction(actions_.at(name));
-  };
-  QMenu* file = menuBar()->addMenu(tr("&File"));
-  fill(file, {"new", "open"});
-  QMenu* recent = file->addMenu(tr("Open &recent"));
+  std::map<std::string, QMenu*> menus;
+  for (const ActionRow& row : all_actions()) {
+    if (!*row.menu) continue;
+    QMenu*& menu = menus[row.menu];
+    if (!menu) {
+      menu = menuBar()->addMenu("&" + tr(row.menu));
+      menu->setAccessibleName(tr(row.menu));
+    }
+    if (row.after_line) menu->addSeparator();
+    menu->addAction(actions_.at(row.name));
+  }
+  auto* recent = new QMenu(tr("Open &recent"), this);
   connect(recent, &QMenu::aboutToShow, this, [this, recent] { fill_recent(recent); });
-  fill(file, {"", "save", "save_as", "", "quit"});
-  fill(menuBar()->addMenu(tr("&Edit")),
-       {"undo", "redo", "", "cut", "copy", "paste", "duplicate", "delete", "", "select_all", "find"});
-  fill(menuBar()->addMenu(tr("&Graph")), {"add", "link", "take_out", "rename", "", "enable", "color", "note",
-                                          "group", "", "arrange", "", "run", "cancel"});
-  QMenu* view = menuBar()->addMenu(tr("&View"));
-  fill(view, {"frame", "frame_all", "canvas", "", "theme", ""});
-  for (QDockWidget* dock : docks_) view->addAction(dock->toggleViewAction());
-  fill(menuBar()->addMenu(tr("&Help")), {"keys", "about"});
+  menus["File"]->insertMenu(menus["File"]->actions().at(2), recent);
+  QMenu* docks = menus["View"]->addMenu(tr("&Docks"));
+  for (QDockWidget* dock : docks_) docks->addAction(dock->toggleViewAction());
 
   auto* bar = addToolBar(tr("Tools"));
   bar->setObjectName("tools");
@@ -167,38 +166,33 @@ void MainWindow::update_actions() {
   step("redo", tr("&Redo"), session_.can_redo(),
        history.can_redo() ? &history.steps()[history.position()] : nullptr);
   const bool chosen = !session_.selected().empty();
-  for (const char* name : {"cut", "copy", "duplicate", "enable", "color", "group", "take_out"})
+  for (const char* name : {"cut", "copy", "duplicate", "enable", "color", "group", "take_out", "collapse"})
     actions_.at(name)->setEnabled(chosen);
   for (const char* name : {"rename", "link"}) actions_.at(name)->setEnabled(!session_.current().empty());
+  const auto current = session_.document().nodes.find(session_.current());
+  actions_.at("open_inside")
+      ->setEnabled(current != session_.document().nodes.end() && current->second.nested != nullptr);
+  for (const char* name : {"next_page", "previous_page"}) actions_.at(name)->setEnabled(session_.pages() > 1);
   actions_.at("run")->setEnabled(!session_.is_read_only());
   actions_.at("save")->setEnabled(!session_.is_read_only());
   actions_.at("save_as")->setEnabled(!session_.is_read_only());
 }
 
 void MainWindow::show_keys() {
-  static const std::pair<const char*, const char*> rows[] = {
-      {"Tab, double-click", "add a node"},
-      {"Drag from a port", "link; let go on empty space to choose a node that fits"},
-      {"Drop a node on a wire", "insert it"},
-      {"Alt+drag a node", "take it out of its links"},
-      {"Ctrl+drag", "cut the links that are crossed"},
-      {"Ctrl+click on a wire", "put a dot there"},
-      {"Wheel, + and −", "zoom"},
-      {"Middle button, Space+drag", "pan"},
-      {"Arrow keys", "walk along links; with Ctrl: move the selection"},
-      {"F, A", "show the selection, show all"},
-      {"D, C, N, G", "disable, colour, note, group in a frame"},
-      {"L, X", "link to another node, take out of links"},
-      {"F2", "rename"},
-      {"Ctrl+F", "find a node"},
-      {"Ctrl+L", "arrange"},
-      {"F5, Ctrl+.", "run Exports and Checks, cancel"},
-  };
-  QString text = "<table cellspacing=6>";
-  for (const auto& [keys, what] : rows)
-    text += QString("<tr><td><b>%1</b></td><td>%2</td></tr>").arg(tr(keys), tr(what));
-  QMessageBox box(QMessageBox::NoIcon, tr("Keys and mouse"), text + "</table>", QMessageBox::Close, this);
-  box.exec();
+  QDialog dialog(this);
+  dialog.setObjectName("keys_dialog");
+  dialog.setWindowTitle(tr("Keys and mouse"));
+  auto* column = new QVBoxLayout(&dialog);
+  auto* page = new QTextBrowser(&dialog);
+  page->setAccessibleName(tr("Keys and mouse"));
+  page->setHtml(help_page());
+  page->setFrameShape(QFrame::NoFrame);
+  column->addWidget(page);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, &dialog);
+  connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
+  column->addWidget(buttons);
+  dialog.resize(720, 600);
+  dialog.exec();
 }
 
 void MainWindow::about() {

@@ -1,5 +1,6 @@
 // The docks and where they stand when nobody has moved them.
 #include <QDockWidget>
+#include <QTabBar>
 
 #include "gui/components/components_panel.h"
 #include "gui/curves/curves_panel.h"
@@ -21,6 +22,12 @@ QDockWidget* MainWindow::add_dock(QWidget* widget, const QString& title, Qt::Doc
                     QDockWidget::DockWidgetFloatable);
   addDockWidget(area, dock);
   docks_.push_back(dock);
+  const auto later = [this] {
+    QMetaObject::invokeMethod(this, &MainWindow::update_dock_titles, Qt::QueuedConnection);
+  };
+  connect(dock, &QDockWidget::dockLocationChanged, this, later);
+  connect(dock, &QDockWidget::topLevelChanged, this, later);
+  connect(dock, &QDockWidget::visibilityChanged, this, later);
   return dock;
 }
 
@@ -49,25 +56,15 @@ void MainWindow::make_docks() {
   auto* parameters = new ParameterPanel(session_, evaluation_);
   auto* files = new FilesPanel(session_);
   auto* problems = new ProblemsPanel(session_, evaluation_);
-  QDockWidget* viewer_dock = add_room(viewer, tr("Viewer"), Qt::RightDockWidgetArea);
-  QDockWidget* parameter_dock = add_room(parameters, tr("Parameters"), Qt::RightDockWidgetArea);
-  QDockWidget* files_dock = add_room(files, tr("Files"), Qt::RightDockWidgetArea);
-  tabifyDockWidget(parameter_dock, files_dock);
-  parameter_dock->raise();
-  QDockWidget* timeline_dock = add_room(timeline, tr("Timeline"), Qt::BottomDockWidgetArea);
-  QDockWidget* problems_dock = add_room(problems, tr("Problems"), Qt::BottomDockWidgetArea);
-  QDockWidget* curves_dock = add_room(curves, tr("Curves"), Qt::BottomDockWidgetArea);
-  QDockWidget* components_dock = add_room(components, tr("Components"), Qt::BottomDockWidgetArea);
-  tabifyDockWidget(timeline_dock, problems_dock);
-  tabifyDockWidget(timeline_dock, curves_dock);
-  tabifyDockWidget(timeline_dock, components_dock);
-  timeline_dock->raise();
-  resizeDocks({viewer_dock, timeline_dock}, {460, 820}, Qt::Horizontal);
-  resizeDocks({viewer_dock, parameter_dock}, {370, 380}, Qt::Vertical);
-  resizeDocks({timeline_dock}, {190}, Qt::Vertical);
-  connect(files, &FilesPanel::open_graph, this, [this](const QString& path) {
-    if (may_discard()) open(path);
-  });
+  add_room(viewer, tr("Viewer"), Qt::RightDockWidgetArea);
+  add_room(parameters, tr("Parameters"), Qt::RightDockWidgetArea);
+  add_room(files, tr("Files"), Qt::RightDockWidgetArea);
+  add_room(timeline, tr("Timeline"), Qt::BottomDockWidgetArea);
+  add_room(components, tr("Components"), Qt::BottomDockWidgetArea);
+  add_room(curves, tr("Curves"), Qt::BottomDockWidgetArea);
+  add_room(problems, tr("Problems"), Qt::BottomDockWidgetArea);
+  usual_layout();
+  connect(files, &FilesPanel::open_graph, this, &MainWindow::open);
   connect(files, &FilesPanel::add_clip, this, [this](const QString& path) {
     canvas_->add("Load", canvas_->to_graph(QRectF(canvas_->rect()).center() - QPointF(90, 40)), {},
                  {{"file", Json(session_.written_path(path).toStdString())}});
@@ -79,12 +76,72 @@ void MainWindow::make_docks() {
   });
 }
 
-void MainWindow::show_dock(const QString& name) {
-  for (QDockWidget* dock : docks_)
-    if (dock->windowTitle().compare(name, Qt::CaseInsensitive) == 0) {
-      dock->show();
-      dock->raise();
+QDockWidget* MainWindow::dock(const QString& name) const {
+  for (QDockWidget* one : docks_)
+    if (one->windowTitle().compare(name, Qt::CaseInsensitive) == 0) return one;
+  return nullptr;
+}
+
+void MainWindow::usual_layout() {
+  for (QDockWidget* one : docks_) {
+    one->setFloating(false);
+    one->show();
+  }
+  QDockWidget *viewer = docks_[0], *parameters = docks_[1], *files = docks_[2];
+  addDockWidget(Qt::RightDockWidgetArea, viewer);
+  addDockWidget(Qt::RightDockWidgetArea, parameters);
+  splitDockWidget(viewer, parameters, Qt::Vertical);
+  tabifyDockWidget(parameters, files);
+  addDockWidget(Qt::BottomDockWidgetArea, docks_[3]);
+  for (std::size_t i = 4; i < docks_.size(); ++i) tabifyDockWidget(docks_[i - 1], docks_[i]);
+  parameters->raise();
+  docks_[3]->raise();
+  resizeDocks({viewer, docks_[3]}, {440, 840}, Qt::Horizontal);
+  resizeDocks({viewer, parameters}, {350, 400}, Qt::Vertical);
+  resizeDocks({docks_[3]}, {236}, Qt::Vertical);
+  QMetaObject::invokeMethod(this, &MainWindow::update_dock_titles, Qt::QueuedConnection);
+}
+
+// A dock among tabs has its name on its tab already.
+void MainWindow::update_dock_titles() {
+  for (QDockWidget* one : docks_) {
+    const bool tabbed = !one->isFloating() && !tabifiedDockWidgets(one).isEmpty();
+    QWidget* own = one->titleBarWidget();
+    if (tabbed == (own != nullptr)) continue;
+    if (tabbed) {
+      auto* none = new QWidget(one);
+      none->setFixedHeight(0);
+      one->setTitleBarWidget(none);
+    } else {
+      one->setTitleBarWidget(nullptr);
+      delete own;
     }
+  }
+  for (QTabBar* bar : findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+    bar->setAccessibleName(tr("Docks"));
+    bar->setDrawBase(false);
+    bar->setElideMode(Qt::ElideNone);
+    bar->setUsesScrollButtons(true);
+    bar->setExpanding(false);
+  }
+}
+
+void MainWindow::go_to_dock(const QString& name) {
+  show_dock(name);
+  QDockWidget* at = dock(name);
+  if (!at || !at->widget()) return;
+  QWidget* room = at->widget();
+  if (room->focusPolicy() != Qt::NoFocus) return room->setFocus(Qt::ShortcutFocusReason);
+  for (QWidget* child : room->findChildren<QWidget*>())
+    if (child->isVisibleTo(room) && child->isEnabled() && child->focusPolicy() & Qt::TabFocus)
+      return child->setFocus(Qt::ShortcutFocusReason);
+}
+
+void MainWindow::show_dock(const QString& name) {
+  if (QDockWidget* at = dock(name)) {
+    at->show();
+    at->raise();
+  }
 }
 
 QStringList MainWindow::dock_names() const {

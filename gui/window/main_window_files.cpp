@@ -1,4 +1,4 @@
-// Opening, saving, running, and what happens to files behind the editor's back.
+// Opening, saving, running.
 #include <QDir>
 #include <QFile>
 #include <QFileDialog>
@@ -7,9 +7,6 @@
 #include <QMessageBox>
 #include <QStatusBar>
 
-#include "graph/file/diff.h"
-#include "graph/file/merge.h"
-#include "graph/file/read.h"
 #include "graph/nested.h"
 #include "gui/canvas/canvas_edits.h"
 #include "gui/window/main_window.h"
@@ -37,12 +34,6 @@ QString listed(const Diagnostics& problems) {
   return text;
 }
 
-std::string bytes_of(const QString& path) {
-  QFile file(path);
-  if (!file.open(QIODevice::ReadOnly)) return {};
-  return file.readAll().toStdString();
-}
-
 }  // namespace
 
 void MainWindow::tell(const Diagnostics& problems, const QString& title) {
@@ -57,21 +48,23 @@ void MainWindow::tell(const Diagnostics& problems, const QString& title) {
 }
 
 bool MainWindow::open(const QString& path) {
-  const Diagnostics problems = session_.open(path);
+  // In a page of its own, unless nothing was begun in the shown one.
+  const bool untouched =
+      session_.path().isEmpty() && session_.document().nodes.empty() && !session_.is_modified();
+  const Diagnostics problems = untouched ? session_.open(path) : session_.open_page(path);
   if (has_error(problems)) {
     tell(problems, tr("%1 can't be opened.").arg(QFileInfo(path).fileName()));
     return false;
   }
-  text_on_disk_ = bytes_of(session_.path());
   watch_files();
   remember_recent(session_.path());
   canvas_->frame_all();
   notice_->hide();
   if (session_.is_read_only())
     notice_->say(tr("%1 was made by a newer Kinegraph. It can be looked at but not changed or saved; update "
-                    "Kinegraph to "
-                    "work on it.")
+                    "Kinegraph to work on it.")
                      .arg(session_.title()));
+  offer_missing_files();
   offer_autosave();
   return true;
 }
@@ -89,15 +82,13 @@ void MainWindow::offer_autosave() {
 }
 
 void MainWindow::new_graph() {
-  if (!may_discard()) return;
-  session_.clear();
-  text_on_disk_.clear();
+  session_.new_page();
   watch_files();
   canvas_->frame_all();
+  canvas_->setFocus();
 }
 
 void MainWindow::choose_and_open() {
-  if (!may_discard()) return;
   const QString path =
       QFileDialog::getOpenFileName(this, tr("Open a graph"), session_.folder(), graph_filter());
   if (!path.isEmpty()) open(path);
@@ -107,7 +98,6 @@ bool MainWindow::save() {
   if (session_.path().isEmpty()) return save_as();
   try {
     session_.save();
-    text_on_disk_ = bytes_of(session_.path());
     watch_files();
     statusBar()->showMessage(tr("Saved"), 2000);
     return true;
@@ -125,7 +115,6 @@ bool MainWindow::save_as() {
   if (!path.endsWith(".kg.json")) path += path.endsWith(".kg") ? ".json" : ".kg.json";
   try {
     session_.save_as(path);
-    text_on_disk_ = bytes_of(session_.path());
     watch_files();
     remember_recent(session_.path());
     return true;
@@ -165,9 +154,7 @@ void MainWindow::fill_recent(QMenu* menu) {
   menu->clear();
   for (const QString& path : user_settings()->value("recent").toStringList())
     if (QFile::exists(path))
-      menu->addAction(QDir::toNativeSeparators(path), this, [this, path] {
-        if (may_discard()) open(path);
-      });
+      menu->addAction(QDir::toNativeSeparators(path), this, [this, path] { open(path); });
   if (menu->isEmpty()) menu->addAction(tr("No graph was opened yet"))->setEnabled(false);
 }
 
@@ -178,6 +165,7 @@ void MainWindow::run_effects() {
                  8);
     return;
   }
+  if (!save_what_is_inside()) return;
   EvaluationRequest request;
   request.document = session_.document();
   request.file = session_.title().toStdString();
@@ -214,85 +202,14 @@ void MainWindow::ran_effects() {
   if (passed) text += tr("Checks passed: %1. ").arg(passed);
   for (const auto& [name, node] : log.nodes)
     failed_nodes += node.state == NodeState::failed || node.state == NodeState::blocked;
+  for (const Diagnostic& problem : evaluation_.problems())
+    text += QString::fromStdString(problem.message) + ". ";
   if (log.stopped) text = tr("The run was cancelled.");
   if (failed_nodes) text += tr("Nodes that failed or were blocked: %1.").arg(failed_nodes);
   notice_->say(text.isEmpty() ? tr("Nothing was written.") : text.trimmed(),
                failed_nodes
                    ? std::vector<NoticeBar::Answer>{{tr("Show problems"), [this] { show_dock("Problems"); }}}
                    : std::vector<NoticeBar::Answer>{});
-}
-
-void MainWindow::watch_files() {
-  QStringList wanted;
-  if (!session_.path().isEmpty()) wanted << session_.path();
-  for (const auto& [name, node] : session_.document().nodes) {
-    const NodeType* type = known_type(registry_, node);
-    if (!type) continue;
-    for (const auto& [key, value] : node.params) {
-      const Param* param = type->find_param(key);
-      if (param && param->kind == ParamType::Kind::open_file && value.is_string() && !value.string().empty())
-        wanted << QDir(session_.folder()).absoluteFilePath(QString::fromStdString(value.string()));
-    }
-  }
-  wanted.removeDuplicates();
-  const QStringList watched = watcher_.files();
-  QStringList gone, fresh;
-  for (const QString& path : watched)
-    if (!wanted.contains(path)) gone << path;
-  for (const QString& path : wanted)
-    if (!watched.contains(path) && QFile::exists(path)) fresh << path;
-  if (!gone.isEmpty()) watcher_.removePaths(gone);
-  if (!fresh.isEmpty()) watcher_.addPaths(fresh);
-}
-
-void MainWindow::file_changed_on_disk(const QString& path) {
-  // A file that is written aside and renamed is a new one to the watcher.
-  QTimer::singleShot(200, this, &MainWindow::watch_files);
-  if (path != session_.path()) {
-    reload_.start();  // a clip: what depends on it is evaluated again
-    return;
-  }
-  const std::string now = bytes_of(path);
-  if (now.empty() || now == text_on_disk_ || now == session_.text()) return;
-  const ReadResult theirs = read_document(now, path.toStdString(), registry_);
-  if (has_error(theirs.problems)) {
-    notice_->say(tr("%1 changed on disk and can't be read there any more. What is open here is kept.")
-                     .arg(session_.title()));
-    return;
-  }
-  const ReadResult base = read_document(text_on_disk_, path.toStdString(), registry_);
-  const Diff changed = diff(base.document, theirs.document);
-  QStringList what;
-  for (const Change& change : changed.changes) what << QString::fromStdString(to_text(change.unit));
-  const QString list = what.isEmpty()
-                           ? tr("only its layout")
-                           : QStringList(what.mid(0, 6)).join(", ") + (what.size() > 6 ? ", …" : "");
-  notice_->say(tr("%1 changed on disk: %2.").arg(session_.title(), list),
-               {{tr("Merge it in"),
-                 [this, now, base, theirs] {
-                   const Merge merged = merge(base.document, session_.document(), theirs.document, registry_,
-                                              "here", "on disk");
-                   // One step that can be undone: from what is open to what was merged.
-                   session_.perform([&](const Document& document, const Registry&) {
-                     Edit edit{"Merge what changed on disk", {}};
-                     const Diff step = diff(document, merged.document);
-                     for (const auto& [from, to] : step.renames) {
-                       const Edit renamed = rename_node(document, from, to);
-                       edit = combined(std::move(edit), renamed);
-                     }
-                     for (const Change& change : step.changes) edit.changes.push_back(change);
-                     return edit;
-                   });
-                   text_on_disk_ = now;
-                   if (!merged.conflicts.empty()) {
-                     QStringList conflicts;
-                     for (const MergeConflict& one : merged.conflicts)
-                       conflicts << QString::fromStdString(one.what);
-                     notice_->say(tr("Both sides changed the same; what is open here was kept for: %1")
-                                      .arg(conflicts.join("; ")));
-                   }
-                 }},
-                {tr("Keep what is open"), [this, now] { text_on_disk_ = now; }}});
 }
 
 }  // namespace kinegraph

@@ -4,28 +4,43 @@
 #include <QElapsedTimer>
 #include <QEventLoop>
 
+#include "gui/viewer/picture_maker.h"
+#include "gui/viewer/viewer.h"
+
 namespace kinegraph {
 namespace {
 
-constexpr int settle_ms = 700;  // quiet time after which nothing more is expected
 constexpr int patience_ms = 60000;
 
 }  // namespace
+
+void wait_until_drawn(MainWindow& window, int settle_ms) {
+  QElapsedTimer all, quiet;
+  all.start();
+  quiet.start();
+  const auto pass = [&] { QApplication::processEvents(QEventLoop::AllEvents, 20); };
+  while (all.elapsed() < patience_ms && quiet.elapsed() < settle_ms) {
+    pass();
+    bool busy = window.is_evaluating();
+    for (Viewer* viewer : window.findChildren<Viewer*>()) busy |= viewer->motions().is_busy();
+    if (busy) quiet.restart();
+  }
+  // What plays by itself is never at rest: two more pictures of it are enough.
+  for (const PictureMaker* maker : window.findChildren<PictureMaker*>()) {
+    const int before = maker->drawn();
+    while (all.elapsed() < patience_ms && maker->is_busy() && maker->drawn() < before + 2) pass();
+  }
+  pass();
+}
 
 bool take_screenshot(MainWindow& window, const QString& file, QSize size) {
   window.resize(size);
   window.show();
   window.canvas().frame_all();
   window.evaluate();
-  QElapsedTimer all, quiet;
-  all.start();
-  quiet.start();
-  while (all.elapsed() < patience_ms && quiet.elapsed() < settle_ms) {
-    QApplication::processEvents(QEventLoop::AllEvents, 20);
-    if (window.is_evaluating()) quiet.restart();
-  }
+  wait_until_drawn(window);
   if (!window.session().current().empty()) window.canvas().make_visible(window.session().current());
-  QApplication::processEvents(QEventLoop::AllEvents, 200);
+  wait_until_drawn(window, 250);
   return window.grab().save(file);
 }
 

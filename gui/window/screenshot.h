@@ -7,6 +7,9 @@
 
 namespace kinegraph {
 
+// Handles events until what is looked at is evaluated and drawn, and nothing more came for a while.
+void wait_until_drawn(MainWindow& window, int settle_ms = 700);
+
 // Shows the window, waits until what is looked at is evaluated, writes its picture. False: it can't be
 // written.
 bool take_screenshot(MainWindow& window, const QString& file, QSize size);

@@ -5,7 +5,7 @@
 
 namespace kinegraph {
 
-inline constexpr int layout_version = 1;  // of the docks: an older layout is forgotten
+inline constexpr int layout_version = 2;  // of the docks: an older layout is forgotten
 
 // $KINEGRAPH_SETTINGS names the file, else the user's own.
 std::unique_ptr<QSettings> user_settings();

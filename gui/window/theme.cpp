@@ -39,6 +39,7 @@ Theme make_dark() {
   t.node_title = 0xff39404c;
   t.node_line = 0xff0f1114;
   t.wire = 0xff8a93a1;
+  t.still_ground = 0xff22262d;
   t.good = 0xff5ac57a;
   t.running = 0xff4da3ff;
   t.warning = 0xffe8b04a;
@@ -75,6 +76,7 @@ Theme make_light() {
   t.node_title = 0xffe9edf2;
   t.node_line = 0xffa9b1bd;
   t.wire = 0xff6c7683;
+  t.still_ground = 0xffeef1f5;
   t.good = 0xff21884a;
   t.running = 0xff1668c7;
   t.warning = 0xffa86e00;
@@ -148,12 +150,17 @@ QMenu { background: %2; border: 1px solid %3; padding: 4px; } QMenu::item { padd
 QMenu::separator { height: 1px; background: %3; margin: 4px 8px; }
 QToolBar { background: %1; border: none; border-bottom: 1px solid %3; spacing: 4px; padding: 3px 6px; }
 QToolButton { border: 1px solid transparent; border-radius: 4px; padding: 4px 8px; }
+QToolBar#viewer_bar { spacing: 1px; padding: 3px 4px; } QToolBar#viewer_bar > QToolButton { padding: 4px 5px; }
 QToolButton:hover { background: %2; } QToolButton:checked { background: %6; }
 QPushButton { background: %2; border: 1px solid %3; border-radius: 4px; padding: 5px 14px; }
 QPushButton:hover { border-color: %5; } QPushButton:default { border-color: %5; } QPushButton:disabled { color: %7; }
 QLineEdit, QPlainTextEdit, QSpinBox, QDoubleSpinBox, QComboBox { background: %8; border: 1px solid %3; border-radius: 4px; padding: 3px 6px; selection-background-color: %6; }
 QComboBox::drop-down { border: none; width: 18px; }
 QComboBox::down-arrow { image: url(:/kinegraph/arrow_down.png); width: 10px; height: 10px; }
+QSpinBox::up-button, QSpinBox::down-button { border: none; width: 18px; background: transparent; }
+QSpinBox::up-button:hover, QSpinBox::down-button:hover { background: %3; }
+QSpinBox::up-arrow { image: url(:/kinegraph/arrow_up.png); width: 10px; height: 10px; }
+QSpinBox::down-arrow { image: url(:/kinegraph/arrow_down.png); width: 10px; height: 10px; }
 QComboBox QAbstractItemView { background: %2; border: 1px solid %3; selection-background-color: %6; outline: none; }
 kinegraph--ParamField QToolButton { background: %2; border: 1px solid %3; padding: 3px 8px; }
 kinegraph--ParamField QToolButton:hover { border-color: %5; }
@@ -168,6 +175,8 @@ QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QCo
 QTreeView, QListView, QTableView { background: %8; border: 1px solid %3; border-radius: 4px; }
 QHeaderView::section { background: %1; border: none; border-bottom: 1px solid %3; padding: 4px 6px; }
 QTabBar::tab { padding: 6px 12px; border: none; border-bottom: 2px solid transparent; color: %7; }
+QTabBar::tab:hover { color: %4; }
+QTabBar::tab:focus { border-bottom-color: %5; color: %5; }
 QTabBar::tab:selected { border-bottom-color: %5; color: %4; }
 QStatusBar { background: %1; border-top: 1px solid %3; }
 QScrollBar:vertical { width: 10px; background: transparent; } QScrollBar:horizontal { height: 10px; background: transparent; }

@@ -1,4 +1,5 @@
-// Colours, shapes and sizes of the editor, in a dark and a light theme. Everything that is drawn takes them from here.
+// Colours, shapes and sizes of the editor, in a dark and a light theme. Everything that is drawn takes them
+// from here.
 #pragma once
 #include <QColor>
 #include <QPalette>
@@ -10,7 +11,7 @@ namespace kinegraph {
 struct Theme {
   bool dark = true;
   QColor window, panel, raised, line, text, faint_text, accent, selection;
-  QColor canvas, grid, node, node_title, node_line, wire;
+  QColor canvas, grid, node, node_title, node_line, wire, still_ground;
   QColor good, running, warning, error, missing;
   QColor ground, ground_line, sky, bone, joint, left, right, second, shadow, stretch_short, stretch_long;
 

@@ -7,6 +7,7 @@
 
 #include "gui/canvas/fuzzy.h"
 #include "gui/panels/arithmetic.h"
+#include "gui/panels/variants.h"
 #include "tests/gui/editor.h"
 
 namespace kinegraph::editor_test {
@@ -131,6 +132,30 @@ TEST(EditorDocument, WhatIsSavedOpensAgainTheSame) {
   EXPECT_TRUE(again.window.open(path));
   EXPECT_EQ(again.session().text(), text);
   EXPECT_FALSE(again.session().is_modified());
+}
+
+TEST(EditorVariants, AnEditIsAChoiceAndWordsAndBack) {
+  const Registry registry = all_nodes();
+  const Param& edits = *registry.find("ComponentEdit")->find_param("edits");
+  const ParamType& type = edits.parts[0];
+  ASSERT_TRUE(has_variants(type));
+  for (const ParamType::Choice& choice : choice_of_variants(type).choices) {
+    const QString key = QString::fromStdString(choice.key);
+    QString why;
+    const QString text = fresh_variant_text(type, key, Json(Json::Object{}));
+    const auto value = variant_of(type, key, text, &why);
+    ASSERT_TRUE(value) << choice.key << ": " << why.toStdString();
+    EXPECT_EQ(variant_key(type, *value), key);
+    EXPECT_EQ(variant_text(type, *value), text);
+  }
+  QString why;
+  EXPECT_EQ(*variant_of(type, "scale", "component 3, factor 1/2", &why),
+            Json(Json::Object{{"op", "scale"}, {"component", 3}, {"factor", 0.5}}));
+  EXPECT_FALSE(variant_of(type, "scale", "component 3, farctor 2", &why));
+  EXPECT_TRUE(why.contains("factor")) << why.toStdString();
+  // What both forms have stays when another is chosen.
+  EXPECT_EQ(fresh_variant_text(type, "translate", *variant_of(type, "scale", "component 3, factor 2", &why)),
+            "component 3, value 1");
 }
 
 }  // namespace

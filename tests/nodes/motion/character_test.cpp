@@ -85,6 +85,15 @@ TEST(Character, FollowsAMotionWhoseJointsHaveItsNames) {
   EXPECT_THROW(pose_for(character, foreign, 0), Failure);
 }
 
+TEST(Character, WeightsCountByTheirShareOfTheSum) {
+  Character character = strip();
+  const Pose pose = rest_pose_of(*character.skeleton);
+  const std::vector<Vec3> sound = posed_vertices(character, character.parts[0], pose);
+  for (float& weight : character.parts[0].weights) weight *= 0.3f;
+  const std::vector<Vec3> unsound = posed_vertices(character, character.parts[0], pose);
+  for (std::size_t v = 0; v < sound.size(); ++v) expect_near(unsound[v], sound[v]);
+}
+
 TEST(Character, IsTheSameOutOfTheCache) {
   const Character character = strip();
   const std::string bytes = encoded(character);

@@ -1,0 +1,39 @@
+// What the editor remembers of the files that its graphs read: size and content's digest, so that one that
+// was moved or renamed is found again. Kept per user; learned on a thread of the pool.
+#pragma once
+#include <QByteArray>
+#include <QString>
+#include <QStringList>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace kinegraph {
+
+class KnownFiles {
+ public:
+  struct File {
+    qint64 size = 0, time = 0;  // bytes; ms since 1970
+    QByteArray digest;          // of the content, hex
+  };
+  KnownFiles();
+  // Reads files that are there and changed since they were last learned. Returns at once.
+  void learn(const QStringList& paths);
+  std::optional<File> find(const QString& path) const;
+  // Of a file's content; empty where it can't be read.
+  static QByteArray digest_of(const QString& path);
+
+ private:
+  // Shared with the threads that learn.
+  struct Store {
+    mutable std::mutex mutex;
+    std::map<QString, File> files;
+    QString path;
+    void load();
+    void save() const;
+  };
+  std::shared_ptr<Store> store_;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,139 @@
+// What happens to files behind the editor's back: watching, merging, finding what is missing.
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+
+#include "graph/file/diff.h"
+#include "graph/file/merge.h"
+#include "graph/file/read.h"
+#include "graph/nested.h"
+#include "gui/window/changes_dialog.h"
+#include "gui/window/main_window.h"
+#include "gui/window/relink_dialog.h"
+
+namespace kinegraph {
+namespace {
+
+std::string bytes_of(const QString& path) {
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  return file.readAll().toStdString();
+}
+
+// Files that nodes of a graph read, those of graphs inside it too.
+void collect_read(const Document& document, const Registry& registry, const QString& folder,
+                  QStringList& files) {
+  for (const auto& [name, node] : document.nodes) {
+    const NodeType* type = known_type(registry, node);
+    if (!type) continue;
+    for (const auto& [key, value] : node.params) {
+      const Param* param = type->find_param(key);
+      if (param && param->kind == ParamType::Kind::open_file && value.is_string() && !value.string().empty())
+        files << QDir(folder).absoluteFilePath(QString::fromStdString(value.string()));
+    }
+    if (node.nested && node.nested->document)
+      collect_read(*node.nested->document, registry, QString::fromStdString(node.nested->folder), files);
+  }
+}
+
+}  // namespace
+
+void MainWindow::watch_files() {
+  QStringList wanted;
+  if (!session_.path().isEmpty()) wanted << session_.path();
+  wanted << session_.files_inside();
+  collect_read(session_.document(), registry_, session_.folder(), wanted);
+  wanted.removeDuplicates();
+  const QStringList watched = watcher_.files() + watcher_.directories();
+  QStringList gone, fresh;
+  // Of a file that isn't there the folder is watched, where it may appear.
+  for (QString& path : wanted)
+    if (!QFile::exists(path)) path = QFileInfo(path).absolutePath();
+  for (const QString& path : watched)
+    if (!wanted.contains(path)) gone << path;
+  for (const QString& path : wanted)
+    if (!watched.contains(path) && !fresh.contains(path) && QFile::exists(path)) fresh << path;
+  if (!gone.isEmpty()) watcher_.removePaths(gone);
+  if (!fresh.isEmpty()) watcher_.addPaths(fresh);
+  known_files_.learn(wanted);
+}
+
+void MainWindow::file_changed_on_disk(const QString& path) {
+  // A file that is written aside and renamed is a new one to the watcher.
+  QTimer::singleShot(200, this, &MainWindow::watch_files);
+  if (session_.files_inside().contains(path) || QFileInfo(path).isDir()) {
+    inside_changed_ = true;
+    reload_.start();
+    return;
+  }
+  if (path != session_.path()) {
+    reload_.start();  // a clip: what depends on it is evaluated again
+    return;
+  }
+  const std::string now = bytes_of(path);
+  if (now.empty() || now == session_.text_on_disk() || now == session_.text()) return;
+  offer_merge(now);
+}
+
+void MainWindow::offer_merge(const std::string& now) {
+  const std::string path = session_.path().toStdString();
+  const ReadResult theirs = read_document(now, path, registry_);
+  if (has_error(theirs.problems)) {
+    notice_->say(tr("%1 changed on disk and can't be read there any more. What is open here is kept; saving "
+                    "replaces what is on disk.")
+                     .arg(session_.title()));
+    return;
+  }
+  const ReadResult base = read_document(session_.text_on_disk(), path, registry_);
+  const Diff changed = diff(base.document, theirs.document);
+  const QStringList what = changes_in_words(changed);
+  const QString list = what.isEmpty()
+                           ? tr("only its layout")
+                           : QStringList(what.mid(0, 4)).join(", ") + (what.size() > 4 ? ", …" : "");
+  const auto merge_in = [this, now, base, theirs] {
+    const Merge merged =
+        merge(base.document, session_.document(), theirs.document, registry_, "here", "on disk");
+    session_.perform([&](const Document& document, const Registry&) {
+      return edit_between(document, merged.document, "Merge what changed on disk");
+    });
+    session_.set_text_on_disk(now);
+    watch_files();
+    if (merged.conflicts.empty()) return;
+    QStringList conflicts;
+    for (const MergeConflict& one : merged.conflicts) conflicts << QString::fromStdString(one.what);
+    notice_->say(
+        tr("Both sides changed the same; what is open here was kept for: %1").arg(conflicts.join("; ")));
+  };
+  notice_->say(tr("%1 changed on disk: %2.").arg(session_.title(), list),
+               {{tr("Merge it in"), merge_in},
+                {tr("Show what changed"),
+                 [this, changed, merge_in, now] {
+                   ChangesDialog dialog(tr("%1 changed on disk").arg(session_.title()), changed, this);
+                   if (dialog.exec() == QDialog::Accepted)
+                     merge_in();
+                   else
+                     offer_merge(now);
+                 }},
+                {tr("Keep what is open"), [this, now] { session_.set_text_on_disk(now); }}});
+}
+
+void MainWindow::offer_missing_files() {
+  const auto missing = missing_files(session_);
+  if (missing.empty()) return;
+  const QString first = QString::fromStdString(missing.front().node);
+  notice_->say(missing.size() == 1 ? tr("A file that %1 reads is missing.").arg(first)
+                                   : tr("%1 files that the graph reads are missing.").arg(missing.size()),
+               {{tr("Find them…"), [this] { relink(); }}});
+}
+
+void MainWindow::relink() {
+  const auto missing = missing_files(session_);
+  if (missing.empty()) {
+    notice_->say(tr("No file is missing."), {}, 5);
+    return;
+  }
+  RelinkDialog dialog(session_, known_files_, missing, this);
+  dialog.exec();
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,119 @@
+// Several graphs in one window: their tabs, graphs inside graphs.
+#include <QDir>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QTabBar>
+
+#include "graph/collapse.h"
+#include "graph/file/write.h"
+#include "graph/nested.h"
+#include "gui/window/main_window.h"
+
+namespace kinegraph {
+
+void MainWindow::update_pages() {
+  const QSignalBlocker quiet(page_tabs_);
+  while (page_tabs_->count() > session_.pages()) page_tabs_->removeTab(page_tabs_->count() - 1);
+  while (page_tabs_->count() < session_.pages()) page_tabs_->addTab(QString());
+  for (int i = 0; i < session_.pages(); ++i) {
+    QString title = session_.page_title(i);
+    if (title.endsWith(".kg.json")) title.chop(8);
+    page_tabs_->setTabText(i, session_.is_page_modified(i) ? title + " •" : title);
+    page_tabs_->setTabToolTip(i, QDir::toNativeSeparators(session_.page_path(i)));
+  }
+  page_tabs_->setCurrentIndex(session_.page());
+  page_tabs_->setVisible(session_.pages() > 1);
+}
+
+void MainWindow::close_page(int page) {
+  const int before = session_.page();
+  session_.show_page(page);
+  if (!may_discard()) {
+    session_.show_page(before);
+    return;
+  }
+  session_.close_page(page);
+  watch_files();
+}
+
+bool MainWindow::may_discard_all() {
+  for (int i = 0; i < session_.pages(); ++i) {
+    if (!session_.is_page_modified(i)) continue;
+    session_.show_page(i);
+    if (!may_discard()) return false;
+  }
+  return true;
+}
+
+void MainWindow::open_inside(const std::string& name) {
+  const auto node = session_.document().nodes.find(name);
+  if (node == session_.document().nodes.end() || !node->second.nested) return;
+  const QString path = QString::fromStdString(node->second.nested->path);
+  if (path.isEmpty() || !QFile::exists(path)) {
+    notice_->say(tr("%1 names no graph file that is there; choose one among its parameters.")
+                     .arg(QString::fromStdString(name)),
+                 {}, 8);
+    return;
+  }
+  const Diagnostics problems = session_.open_page(path);
+  if (has_error(problems)) tell(problems, tr("%1 can't be opened.").arg(QFileInfo(path).fileName()));
+  canvas_->frame_all();
+  canvas_->setFocus();
+}
+
+void MainWindow::collapse_selected() {
+  if (session_.selected().empty() || session_.is_read_only()) return;
+  const std::vector<std::string> names(session_.selected().begin(), session_.selected().end());
+  // What can't be collapsed is said before a file is asked for.
+  CollapseOptions options{"part.kg.json", session_.folder().toStdString(), session_.folder().toStdString()};
+  if (!session_.perform([&](const Document& document, const Registry& registry) {
+        collapse(document, registry, names, options);
+        return Edit{};
+      }))
+    return;
+  QString path = QFileDialog::getSaveFileName(this, tr("The new graph file"),
+                                              QDir(session_.folder()).filePath("part.kg.json"),
+                                              tr("Kinegraph graphs (*.kg.json)"));
+  if (path.isEmpty()) return;
+  if (!path.endsWith(".kg.json")) path += ".kg.json";
+  options.file = session_.written_path(path).toStdString();
+  options.inner_folder = QFileInfo(path).absolutePath().toStdString();
+  std::string made;
+  session_.perform([&](const Document& document, const Registry& registry) {
+    Collapsed collapsed = collapse(document, registry, names, options);
+    write_file_atomically(path.toStdString(), write_document(collapsed.inside, registry));
+    made = collapsed.node;
+    return collapsed.edit;
+  });
+  if (!made.empty()) session_.select({made}, made);
+}
+
+bool MainWindow::save_what_is_inside() {
+  const std::vector<int> pages = session_.modified_inside();
+  if (pages.empty() || !options_.ask) return true;
+  QStringList names;
+  for (int page : pages) names << session_.page_title(page);
+  QMessageBox box(QMessageBox::Question, tr("Kinegraph"), tr("Save %1 before running?").arg(names.join(", ")),
+                  QMessageBox::Save | QMessageBox::Ignore | QMessageBox::Cancel, this);
+  box.button(QMessageBox::Ignore)->setText(tr("Run unsaved"));
+  box.setInformativeText(
+      tr("It lies inside this graph and has changes that are not saved: what runs here "
+         "would differ from what kinegraph run gives."));
+  box.setDefaultButton(QMessageBox::Save);
+  const int answer = box.exec();
+  if (answer == QMessageBox::Cancel) return false;
+  if (answer == QMessageBox::Ignore) return true;
+  const int shown = session_.page();
+  bool saved = true;
+  for (int page : pages) {
+    session_.show_page(page);
+    saved = save() && saved;
+  }
+  session_.show_page(shown);
+  return saved;
+}
+
+}  // namespace kinegraph

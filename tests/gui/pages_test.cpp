@@ -1,0 +1,174 @@
+// Graphs inside graphs, and several graphs in one window.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <QFile>
+#include <QFileDialog>
+#include <QTabBar>
+#include <QTimer>
+
+#include "graph/nested.h"
+#include "tests/gui/editor.h"
+
+namespace kinegraph::editor_test {
+namespace {
+
+const QString graphs = QString(KINEGRAPH_SOURCE_DIR) + "/graphs/";
+
+void copy_graphs(const QTemporaryDir& folder) {
+  QDir(folder.path()).mkpath("pipelines");
+  for (const char* name : {"reuse.kg.json", "pipelines/sneakify.kg.json", "pipelines/restyle.kg.json",
+                           "pipelines/clean_feet.kg.json"})
+    ASSERT_TRUE(QFile::copy(graphs + name, folder.filePath(name))) << name;
+}
+
+struct Reuse : Editor {
+  Reuse() {
+    copy_graphs(folder);
+    EXPECT_TRUE(window.open(folder.filePath("reuse.kg.json")));
+    canvas().setFocus();
+    canvas().frame_all();
+    settle();
+  }
+  QTabBar& tabs() { return *window.findChild<QTabBar*>("pages"); }
+  void double_click(const std::string& node) {
+    QTest::mouseDClick(&canvas(), Qt::LeftButton, Qt::NoModifier, middle(node));
+    settle();
+  }
+};
+
+TEST(EditorPages, AGraphNodeShowsWhatItsFilePublishesAndIsEvaluated) {
+  Reuse editor;
+  const SceneNode& node = *editor.canvas().scene().node("sneaky");
+  EXPECT_FALSE(node.missing);
+  EXPECT_TRUE(node.port(true, "motion"));
+  EXPECT_TRUE(node.port(false, "motion"));
+  EXPECT_FALSE(has_error(editor.session().problems()));
+  ASSERT_TRUE(editor.wait_for_evaluation());
+  EXPECT_TRUE(QTest::qWaitFor([&] { return editor.window.evaluation().value("sneaky", "motion") != nullptr; },
+                              30000));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return editor.window.evaluation().status("sneaky") != nullptr; }, 5000));
+  EXPECT_EQ(editor.window.evaluation().status("sneaky")->state, NodeStatus::State::done);
+}
+
+TEST(EditorPages, ADoubleClickOpensItsFileInATabWithItsOwnUndo) {
+  Reuse editor;
+  editor.double_click("sneaky");
+  ASSERT_EQ(editor.session().pages(), 2);
+  EXPECT_EQ(editor.session().title(), "sneakify.kg.json");
+  EXPECT_TRUE(editor.tabs().isVisible());
+  EXPECT_FALSE(editor.session().can_undo());
+  editor.add("gait");
+  EXPECT_TRUE(editor.session().can_undo());
+  editor.key(Qt::Key_PageUp, Qt::ControlModifier);
+  EXPECT_EQ(editor.session().title(), "reuse.kg.json");
+  EXPECT_FALSE(editor.session().can_undo());
+  editor.key(Qt::Key_PageDown, Qt::ControlModifier);
+  EXPECT_TRUE(editor.session().can_undo());
+}
+
+TEST(EditorPages, TheOuterGraphFollowsUnsavedChanges) {
+  Reuse editor;
+  ASSERT_TRUE(editor.canvas().scene().node("sneaky")->port(false, "motion"));
+  editor.double_click("sneaky");
+  editor.session().perform([](const Document& d, const Registry&) {
+    return set_unit(d, {Unit::Kind::publish_output, "again", {}},
+                    Json(to_text(d.publish.outputs.at("motion").front())), "Publish again");
+  });
+  editor.key(Qt::Key_PageUp, Qt::ControlModifier);
+  const Document& outer = editor.document();
+  const NodeType* type = known_type(editor.registry, outer.nodes.at("sneaky"));
+  ASSERT_TRUE(type);
+  EXPECT_TRUE(type->find_output("again"));
+  EXPECT_THAT(editor.session().modified_inside(), testing::ElementsAre(1));
+}
+
+TEST(EditorPages, AFileInsideThatChangesOnDiskIsReadAgain) {
+  Reuse editor;
+  const QString path = editor.folder.filePath("pipelines/sneakify.kg.json");
+  QFile file(path);
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  QByteArray text = file.readAll();
+  file.close();
+  text.replace(
+      "\"outputs\": {",
+      "\"outputs\": {\n      \"again\": \"" +
+          QByteArray::fromStdString(to_text(
+              editor.document().nodes.at("sneaky").nested->document->publish.outputs.at("motion").front())) +
+          "\",");
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write(text);
+  file.close();
+  EXPECT_TRUE(QTest::qWaitFor(
+      [&] {
+        const NodeType* type = known_type(editor.registry, editor.document().nodes.at("sneaky"));
+        return type && type->find_output("again");
+      },
+      5000));
+}
+
+TEST(EditorPages, CtrlGMakesTheSelectionAGraphFile) {
+  Editor editor;
+  const QString path = editor.folder.filePath("main.kg.json");
+  ASSERT_TRUE(QFile::copy(graphs + "style_transfer.kg.json", path));
+  ASSERT_TRUE(QFile::link(graphs + "clips", editor.folder.filePath("clips")));
+  ASSERT_TRUE(editor.window.open(path));
+  const std::string before = editor.session().text();
+  const auto choose = [&] {
+    editor.session().select({"style", "transfer"}, "transfer");
+    editor.canvas().setFocus();
+  };
+  choose();
+  QTimer::singleShot(0, &editor.window, [&] {
+    auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+    ASSERT_TRUE(dialog);
+    dialog->findChild<QLineEdit*>("fileNameEdit")->setText(editor.folder.filePath("styled.kg.json"));
+    QTest::keyClick(dialog->findChild<QLineEdit*>("fileNameEdit"), Qt::Key_Return);
+  });
+  editor.key(Qt::Key_G, Qt::ControlModifier);
+  ASSERT_TRUE(QFile::exists(editor.folder.filePath("styled.kg.json")));
+  EXPECT_FALSE(editor.document().nodes.count("transfer"));
+  EXPECT_FALSE(has_error(editor.session().problems()));
+  EXPECT_EQ(editor.document().nodes.at(editor.session().current()).type, "Graph");
+  editor.key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(editor.session().text(), before);
+  EXPECT_TRUE(QFile::exists(editor.folder.filePath("styled.kg.json")));
+}
+
+TEST(EditorPages, OpeningAnotherGraphKeepsTheFirstInItsTab) {
+  Reuse editor;
+  editor.add("gait");
+  ASSERT_TRUE(editor.window.open(graphs + "feet.kg.json"));
+  EXPECT_EQ(editor.session().pages(), 2);
+  EXPECT_TRUE(editor.session().is_page_modified(0));
+}
+
+TEST(EditorEvaluation, WhatIsWrongStandsAsideAndTheRestRuns) {
+  Editor editor;
+  const std::string gait = editor.add("gait");
+  const std::string feet = editor.add("footskate");  // its motion is open
+  editor.session().select({gait}, gait);
+  ASSERT_TRUE(editor.wait_for_evaluation());
+  EXPECT_TRUE(
+      QTest::qWaitFor([&] { return editor.window.evaluation().value(gait, "motion") != nullptr; }, 20000));
+  ASSERT_TRUE(editor.window.evaluation().status(feet));
+  EXPECT_EQ(editor.window.evaluation().status(feet)->state, NodeStatus::State::failed);
+}
+
+TEST(EditorEvaluation, AMotionsNodeHasAStill) {
+  Editor editor;
+  const std::string gait = editor.add("gait");
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        const NodeStatus* status = editor.window.evaluation().status(gait);
+        return status && status->still;
+      },
+      20000));
+  const Still& still = *editor.window.evaluation().status(gait)->still;
+  EXPECT_EQ(still.figures, 5);
+  EXPECT_NEAR(still.height, 1, 0.15);
+  EXPECT_FALSE(editor.canvas().scene().node(gait)->still.isNull());
+}
+
+}  // namespace
+}  // namespace kinegraph::editor_test

@@ -1,0 +1,311 @@
+// Writes the pictures of docs/editor: every port type, node state, dock, dialog, error and empty state.
+//   editor_screenshots FOLDER dark|light|large [NAME]
+#include <QCheckBox>
+#include <QMessageBox>
+#include <QStandardPaths>
+#include <QStyleFactory>
+#include <cstdio>
+
+#include "graph/edit.h"
+#include "graph/file/read.h"
+#include "gui/window/changes_dialog.h"
+#include "tests/screenshots/shots.h"
+
+namespace kinegraph::shots {
+namespace {
+
+const char* const every_port =
+    R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}},
+  "strut": {"type": "Load", "params": {"file": "clips/strut.bvh"}},
+  "warp": {"type": "TimeWarp", "inputs": {"source": "walk.motion", "reference": "strut.motion"}},
+  "style": {"type": "QuatStats", "inputs": {"motion": "warp.reference"}},
+  "transfer": {"type": "StyleTransfer", "inputs": {"motion": "warp.warped", "style": "style.stats"}},
+  "unwarp": {"type": "UnwarpTime", "inputs": {"motion": "transfer.motion", "warp": "warp.warp"}},
+  "plants": {"type": "DetectContacts", "inputs": {"motion": "walk.motion"}},
+  "feet": {"type": "Footskate", "inputs": {"motion": "unwarp.motion", "contacts": "plants.contacts"}},
+  "parts": {"type": "ICA", "params": {"components": 3}, "inputs": {"motions": ["walk.motion", "strut.motion"]}},
+  "edit": {"type": "ComponentEdit", "inputs": {"components": "parts.components"}},
+  "sparks": {"type": "Burst"},
+  "mesh": {"type": "MarkerMesh", "inputs": {"points": "sparks.points"}},
+  "figures": {"type": "Metrics", "inputs": {"motion": "feet.motion", "contacts": "feet.contacts"}},
+  "out": {"type": "Export", "params": {"file": "all.bvh"}, "inputs": {"motion": "edit.motion", "character": "mesh.character",
+    "metrics": "figures.metrics"}})";
+
+const char* const states = R"("long_walk": {"type": "Gait", "params": {"seconds": 120}},
+  "long_sneak": {"type": "Gait", "params": {"seconds": 110, "gait": "sneak"}},
+  "running": {"type": "TimeWarp", "inputs": {"source": "long_walk.motion", "reference": "long_sneak.motion"}},
+  "waiting": {"type": "UnwarpTime", "inputs": {"motion": "running.warped", "warp": "running.warp"}},
+  "gone": {"type": "Load", "params": {"file": "clips/nowhere.bvh"}},
+  "blocked": {"type": "Filter", "inputs": {"motion": "gone.motion"}},
+  "unknown": {"type": "Hologram", "inputs": {"motion": "walk.motion"}},
+  "walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}},
+  "done": {"type": "Filter", "inputs": {"motion": "walk.motion"}},
+  "disabled": {"type": "Mirror", "enabled": false, "inputs": {"motion": "done.motion"}},
+  "open": {"type": "Footskate"})";
+
+void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
+  {
+    Shot shot(theme, into);
+    shot.take("empty" + end);
+    shot.press(Qt::Key_Tab);
+    shot.type("style");
+    shot.take_widget("search" + end, &shot.canvas());
+  }
+  {
+    Shot shot(theme, into);
+    shot.open("style_transfer");
+    shot.select("transfer");
+    shot.canvas().frame_all();
+    shot.wait();
+    shot.take("window" + end);
+  }
+  {
+    Shot shot(theme, into, {1500, 900});
+    shot.text(every_port);
+    shot.wait(1500);
+    shot.take_canvas("port_types" + end);
+  }
+  {
+    Shot shot(theme, into, {1400, 900});
+    shot.text(states);
+    shot.select("waiting");
+    shot.canvas().frame_all();
+    QElapsedTimer clock;
+    for (clock.start(); clock.elapsed() < 60000;) {
+      QApplication::processEvents(QEventLoop::AllEvents, 20);
+      const NodeStatus* running = shot.window.evaluation().status("running");
+      if (running && running->state == NodeStatus::State::running && running->progress > 0.1) break;
+    }
+    shot.take_widget("node_states" + end, &shot.canvas());
+    shot.window.evaluation().cancel();
+  }
+}
+
+void gestures(const Theme& theme, const QDir& into, const QString& end) {
+  {
+    Shot shot(theme, into);
+    shot.open("style_transfer");
+    shot.canvas().show_rect(
+        shot.canvas().scene().bounds_of({"style", "transfer", "unwarp"}).adjusted(-30, -60, 30, 60));
+    shot.wait();
+    shot.drag(shot.port("transfer", "motion", false), shot.port("style", "motion", true) + QPoint(2, 0));
+    shot.take_widget("refused_wire" + end, &shot.canvas());
+  }
+  {
+    Shot shot(theme, into);
+    shot.open("sneaky_walk");
+    shot.session().select({"style", "transfer"}, "transfer");
+    shot.press(Qt::Key_G);
+    shot.type("Style");
+    shot.press(Qt::Key_Return);
+    shot.press(Qt::Key_N);
+    shot.type("Half as sneaky is enough.");
+    shot.press(Qt::Key_Return, Qt::ControlModifier);
+    shot.take_canvas("frame_and_note" + end);
+    shot.select("transfer");
+    shot.take_popup("colours" + end, [&] { shot.window.action("color")->trigger(); });
+  }
+  {
+    Shot shot(theme, into);
+    shot.open("reuse");
+    shot.window.open(Shot::example("pipelines/sneakify"));
+    shot.wait();
+    shot.canvas().zoom_at(QPointF(300, 200), 5);
+    shot.wait();
+    shot.take("graph_in_graph" + end);
+  }
+}
+
+void docks(const Theme& theme, const QDir& into, const QString& end) {
+  {
+    Shot shot(theme, into);
+    shot.open("style_transfer");
+    shot.window.playback().set_time(0.9);
+    Viewer::Looks looks;
+    looks.trails = true;
+    shot.viewer().set_looks(looks);
+    shot.wait();
+    shot.take_dock("viewer_trails" + end, "Viewer");
+    looks.trails = false;
+    looks.ghosts = 30;
+    looks.follow = false;
+    shot.viewer().set_looks(looks);
+    shot.viewer().frame_all();
+    shot.wait();
+    shot.take_dock("viewer_ghosts" + end, "Viewer");
+    looks.ghosts = 0;
+    looks.follow = true;
+    shot.viewer().set_looks(looks);
+    shot.viewer().pin(1, "walk");
+    shot.viewer().pin(2, "feet");
+    shot.viewer().frame_all();
+    shot.wait();
+    shot.take_dock("viewer_side_by_side" + end, "Viewer");
+    shot.viewer().set_arrangement(Viewer::Arrangement::overlaid);
+    shot.viewer().frame_all();
+    shot.wait();
+    shot.take_dock("viewer_overlaid" + end, "Viewer");
+    shot.viewer().set_arrangement(Viewer::Arrangement::wipe);
+    shot.wait();
+    shot.take_dock("viewer_wipe" + end, "Viewer");
+    shot.select("warp");
+    shot.take_dock("timeline_warp" + end, "Timeline");
+    shot.take_dock("curves_warp" + end, "Curves");
+    shot.select("feet");
+    shot.take_dock("curves_channels" + end, "Curves");
+    shot.take_dock("parameters" + end, "Parameters");
+    shot.select("style");
+    shot.take_dock("curves_statistics" + end, "Curves");
+    shot.dock("Files");
+    shot.take_dock("files" + end, "Files");
+    shot.select("check");
+    shot.take_dock("parameters_rules" + end, "Parameters");
+  }
+  {
+    Shot shot(theme, into);
+    shot.open("component_edit");
+    shot.select("edit");
+    shot.dock("Components");
+    shot.wait(1500);
+    shot.take("components" + end);
+    shot.take_dock("parameters_edits" + end, "Parameters");
+  }
+  {
+    Shot shot(theme, into);
+    shot.text(R"("sparks": {"type": "Burst"})");
+    shot.window.playback().set_time(0.6);
+    shot.wait();
+    shot.take_dock("viewer_points" + end, "Viewer");
+    shot.take_dock("components_empty" + end, "Components");
+    shot.take_dock("problems_empty" + end, "Problems");
+  }
+  {
+    Shot shot(theme, into);
+    shot.open("cartoon_walk");
+    shot.window.playback().set_time(0.4);
+    shot.wait();
+    shot.take_dock("viewer_stretch" + end, "Viewer");
+  }
+}
+
+void troubles(const Theme& theme, const QDir& into, const QString& end) {
+  {
+    Shot shot(theme, into);
+    shot.text(R"("walk": {"type": "Load", "params": {"file": "clips/wlak.bvh"}},
+      "soft": {"type": "Filter", "inputs": {"motion": "walk.motion"}}, "feet": {"type": "Footskate"},
+      "holo": {"type": "Hologram", "inputs": {"motion": "soft.motion"}})");
+    shot.select("walk");
+    shot.dock("Problems");
+    shot.take("missing_file" + end);
+    shot.take_dock("problems" + end, "Problems");
+    shot.take_popup(
+        "relink" + end, [&] { shot.window.action("relink")->trigger(); }, 2500);
+    shot.select("holo");
+    shot.take_dock("parameters_unknown" + end, "Parameters");
+  }
+  {
+    Shot shot(theme, into);
+    QFile newer(shot.folder.filePath("newer.kg.json"));
+    if (newer.open(QIODevice::WriteOnly))
+      newer.write("{\"format\": \"kinegraph\", \"schema\": 99, \"nodes\": {}}\n");
+    newer.close();
+    shot.window.open(newer.fileName());
+    shot.wait();
+    shot.take("newer_file" + end);
+  }
+  {
+    Shot shot(theme, into);
+    const QString path = shot.text(R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}},
+      "soft": {"type": "Filter", "inputs": {"motion": "walk.motion"}})");
+    QFile file(path);
+    if (file.open(QIODevice::ReadOnly)) {
+      QByteArray changed = file.readAll();
+      file.close();
+      changed.replace("\"Filter\",", "\"Filter\", \"note\": \"calmer\",");
+      changed.replace("walk.bvh", "strut.bvh");
+      if (file.open(QIODevice::WriteOnly)) file.write(changed);
+      file.close();
+    }
+    shot.wait(1200);
+    shot.take("changed_on_disk" + end);
+    const ReadResult before = read_document(shot.session().text_on_disk(), "a", shot.registry);
+    if (file.open(QIODevice::ReadOnly)) {
+      const ReadResult after = read_document(file.readAll().toStdString(), "a", shot.registry);
+      ChangesDialog dialog("example.kg.json changed on disk", diff(before.document, after.document),
+                           &shot.window);
+      shot.take_popup("changes" + end, [&] { dialog.exec(); });
+    }
+  }
+  {
+    Shot shot(theme, into);
+    QFile damaged(shot.folder.filePath("damaged.bvh"));
+    if (damaged.open(QIODevice::WriteOnly)) damaged.write("HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0\n}\n");
+    damaged.close();
+    shot.text(R"("walk": {"type": "Load", "params": {"file": "damaged.bvh"}})");
+    shot.select("walk");
+    shot.take("damaged_clip" + end);
+  }
+  {
+    Shot first(theme, into);
+    const QString path = first.text(R"("walk": {"type": "Gait"})");
+    first.canvas().add("Filter", {260, 0});
+    first.wait(2600);
+    Shot second(theme, into);
+    second.window.open(path);
+    second.wait();
+    second.take("autosave" + end);
+    second.session().discard_autosave();
+  }
+  {
+    Shot shot(theme, into);
+    shot.open("sneaky_walk");
+    shot.take_popup("keys" + end, [&] { shot.window.action("keys")->trigger(); });
+    shot.take_popup("about" + end, [&] { shot.window.action("about")->trigger(); });
+    shot.session().perform([](const Document& d, const Registry&) { return set_note(d, "walk", "mine"); });
+    shot.take_popup("unsaved" + end, [&] { shot.window.action("close_page")->trigger(); });
+  }
+}
+
+}  // namespace
+}  // namespace kinegraph::shots
+
+int main(int argc, char** argv) {
+  QStandardPaths::setTestModeEnabled(true);
+  QApplication application(argc, argv);
+  QApplication::setApplicationName("kinegraph-editor");
+  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  if (argc < 3) {
+    std::fprintf(stderr, "editor_screenshots FOLDER dark|light|large\n");
+    return 2;
+  }
+  using namespace kinegraph;
+  const QDir into(argv[1]);
+  const QString what = argv[2];
+  QDir().mkpath(into.path());
+  if (what == "large") {
+    // With QT_SCALE_FACTOR=2 in the environment: the same window with twice the pixels.
+    shots::Shot shot(dark_theme(), into, {1280, 800});
+    shot.open("style_transfer");
+    shot.select("transfer");
+    shot.canvas().frame_all();
+    shot.wait();
+    shot.take("window_large");
+    return 0;
+  }
+  const Theme& theme = what == "light" ? light_theme() : dark_theme();
+  const QString end = what == "light" ? "_light" : "";
+  shots::graph_pictures(theme, into, end);
+  if (what == "light") {
+    shots::Shot shot(theme, into);
+    shot.open("component_edit");
+    shot.select("edit");
+    shot.dock("Components");
+    shot.wait(1500);
+    shot.take("components_light");
+    return 0;
+  }
+  shots::gestures(theme, into, end);
+  shots::docks(theme, into, end);
+  shots::troubles(theme, into, end);
+  return 0;
+}

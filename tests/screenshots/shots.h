@@ -1,0 +1,131 @@
+// A window of the editor that pictures are taken of: opened on a graph, waited for, written as PNG.
+#pragma once
+#include <QApplication>
+#include <QDialog>
+#include <QDir>
+#include <QElapsedTimer>
+#include <QFile>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QTimer>
+#include <functional>
+
+#include "gui/viewer/viewer.h"
+#include "gui/window/main_window.h"
+#include "gui/window/screenshot.h"
+#include "nodes/all_nodes.h"
+
+namespace kinegraph::shots {
+
+struct Shot {
+  Shot(const Theme& theme, const QDir& into, QSize size = {1280, 800}) : into_(into) {
+    window.set_theme(theme);
+    window.resize(size);
+    window.show();
+    QTest::qWaitForWindowExposed(&window);
+    QApplication::setActiveWindow(&window);
+    window.resize(size);
+    window.canvas().setFocus();
+    wait();
+  }
+  ~Shot() { window.session().discard_autosave(); }
+
+  Session& session() { return window.session(); }
+  GraphCanvas& canvas() { return window.canvas(); }
+  Viewer& viewer() { return *window.findChild<Viewer*>(); }
+
+  static QString example(const QString& name) {
+    return QString(KINEGRAPH_SOURCE_DIR) + "/graphs/" + name + ".kg.json";
+  }
+  void open(const QString& name) {
+    window.open(example(name));
+    wait();
+  }
+  // A graph written down here, in a folder of its own beside the sample clips.
+  QString text(const QByteArray& nodes, const QByteArray& rest = {}) {
+    QFile::link(QString(KINEGRAPH_SOURCE_DIR) + "/graphs/clips", folder.filePath("clips"));
+    const QString path = folder.filePath("example.kg.json");
+    QFile file(path);
+    if (file.open(QIODevice::WriteOnly))
+      file.write("{\"format\": \"kinegraph\", \"schema\": 1, \"nodes\": {" + nodes + "}" + rest + "}\n");
+    file.close();
+    window.open(path);
+    wait();
+    return path;
+  }
+  void select(const std::string& node) {
+    session().select({node}, node);
+    wait();
+  }
+  void dock(const QString& name) {
+    window.show_dock(name);
+    wait();
+  }
+  void wait(int quiet_ms = 400) { wait_until_drawn(window, quiet_ms); }
+  void take(const QString& name) { take_widget(name, &window); }
+  void take_dock(const QString& name, const QString& title) {
+    dock(title);
+    take_widget(name, window.findChild<QWidget*>("dock_" + title.toLower()));
+  }
+  void take_canvas(const QString& name) {
+    canvas().frame_all();
+    wait(250);
+    take_widget(name, &canvas());
+  }
+  void take_widget(const QString& name, QWidget* widget) {
+    const QString path = into_.filePath(name + ".png");
+    if (!widget || !widget->grab().save(path)) qFatal("can't write %s", qPrintable(path));
+    std::printf("%s\n", qPrintable(name));
+    std::fflush(stdout);
+  }
+  // Of the dialog or menu that `open` brings up, which is closed again.
+  void take_popup(const QString& name, const std::function<void()>& open, int after_ms = 700) {
+    bool taken = false;
+    QTimer timer;
+    QObject::connect(&timer, &QTimer::timeout, [&] {
+      QWidget* popup = QApplication::activePopupWidget();
+      QWidget* shown = popup ? popup : QApplication::activeModalWidget();
+      if (!shown) return;
+      if (!taken) take_widget(name, shown);
+      taken = true;
+      if (auto* dialog = qobject_cast<QDialog*>(shown))
+        dialog->reject();
+      else
+        shown->close();
+    });
+    timer.start(after_ms);
+    open();
+    wait(100);
+  }
+  void press(Qt::Key key, Qt::KeyboardModifiers keys = Qt::NoModifier) {
+    QWidget* at = QApplication::focusWidget() ? QApplication::focusWidget() : &canvas();
+    QTest::keyClick(at, key, keys);
+    wait(150);
+  }
+  void type(const QString& letters) {
+    if (QApplication::focusWidget()) QTest::keyClicks(QApplication::focusWidget(), letters);
+    wait(150);
+  }
+  QPoint port(const std::string& node, const std::string& name, bool input) {
+    return canvas().to_view(canvas().scene().port_position({node, name, input})).toPoint();
+  }
+  // Presses at one place of the canvas and moves to another, without letting go.
+  void drag(QPoint from, QPoint to, Qt::KeyboardModifiers keys = Qt::NoModifier) {
+    QTest::mousePress(&canvas(), Qt::LeftButton, keys, from);
+    for (int i = 1; i <= 10; ++i) {
+      const QPoint at = from + (to - from) * i / 10;
+      QMouseEvent event(QEvent::MouseMove, at, canvas().mapToGlobal(at), Qt::NoButton, Qt::LeftButton, keys);
+      QApplication::sendEvent(&canvas(), &event);
+    }
+    wait(150);
+  }
+
+  QTemporaryDir folder;
+  Registry registry = all_nodes();
+  MainWindow window{registry, {.remember = false, .ask = true, .cache_folder = {}}};
+
+ private:
+  QDir into_;
+};
+
+}  // namespace kinegraph::shots
