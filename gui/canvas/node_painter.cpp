@@ -247,16 +247,27 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
   const QColor ink = node.enabled ? theme.text : theme.faint_text;
   const QString name = QString::fromStdString(node.name);
   if (small) {
-    // As large as the box lets it be, at least 9 pixels on the screen.
+    // As large as the box lets it be, at least 9 pixels on the screen; above the still where that is to be
+    // seen.
     const double pixels = std::clamp(13.0, 9.5 / zoom, 40.0);
+    const bool with_still = !node.still.isNull() && zoom >= 0.34;
     p.setFont(font_of(pixels, true));
     p.setPen(ink);
-    draw_text(p, box.adjusted(8, 4, -8, 0), Qt::AlignHCenter, name);
+    QRectF words = box.adjusted(8, 4, -8, 0);
+    if (with_still) {
+      const QRectF still(8, box.height() - 8 - 1.15 * node.still.height(), box.width() - 16,
+                         1.15 * node.still.height());
+      words.setBottom(still.top());
+      draw_still(p, still, status ? status->still.get() : nullptr, theme);
+      p.setPen(ink);
+    }
+    draw_text(p, words, Qt::AlignHCenter, name);
     const double dot = 4 / zoom;
     if (state != State::idle) {
       p.setPen(Qt::NoPen);
       p.setBrush(state_color(theme, state));
-      p.drawEllipse(QPointF(box.right() - 2 * dot, box.bottom() - 2 * dot), dot, dot);
+      const double y = with_still ? words.center().y() : box.bottom() - 2 * dot;
+      p.drawEllipse(QPointF(box.right() - 2 * dot, y), dot, dot);
     }
   } else {
     p.setFont(font_of(13, true));

@@ -62,7 +62,7 @@ SearchBox::SearchBox(QWidget* parent) : QFrame(parent) {
   help_->setObjectName("faint");
   help_->setWordWrap(true);
   help_->setAlignment(Qt::AlignTop);
-  help_->setFixedHeight(fontMetrics().height() * 2 + 4);
+  help_->setFixedHeight(fontMetrics().lineSpacing() * 3 + 4);
   layout->addWidget(line_);
   layout->addWidget(list_);
   layout->addWidget(help_);
@@ -84,7 +84,7 @@ void SearchBox::open(QPoint at, const QString& prompt, std::vector<Entry> entrie
   line_->setAccessibleName(prompt);
   line_->clear();
   filter();
-  resize(320, 340);
+  resize(340, 360);
   const QRect room = parentWidget()->rect().adjusted(8, 8, -8, -8);
   at.setX(std::max(room.left(), std::min(at.x(), room.right() - width())));
   at.setY(std::max(room.top(), std::min(at.y(), room.bottom() - height())));

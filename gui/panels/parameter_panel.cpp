@@ -10,6 +10,7 @@
 #include <QStackedLayout>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <set>
 
 #include "graph/nested.h"
 #include "gui/canvas/node_painter.h"
@@ -140,10 +141,16 @@ void ParameterPanel::show_node() {
       build(*known);
     } else {
       node_type_.clear();
-      scroll_->setWidget(
-          faint_label(tr("This node's type is not known to this Kinegraph. It is kept as it is and saved "
-                         "back unchanged; install the version that made it to run it."),
-                      nullptr));
+      help_->clear();
+      auto* words =
+          faint_label(found->second.nested || found->second.type == "Graph"
+                          ? tr("The graph file of this node can't be used. Choose another among its "
+                               "parameters once it is there again; what is set here is kept.")
+                          : tr("This node's type is not known to this Kinegraph. It is kept as it is "
+                               "and saved back unchanged; install the version that made it to run it."),
+                      nullptr);
+      words->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+      scroll_->setWidget(words);
     }
   }
   refresh();
@@ -212,7 +219,7 @@ void ParameterPanel::build(const NodeType& known) {
         faint_label(tr("%1 has no parameters.").arg(QString::fromStdString(known.name)), inside));
   column->addStretch(1);
   scroll_->setWidget(inside);
-  help_->clear();
+  help_->setText(known.params.empty() ? QString() : tr("Point at a parameter to read what it does."));
 }
 
 void ParameterPanel::refresh() {
@@ -248,6 +255,7 @@ void ParameterPanel::refresh() {
 
 void ParameterPanel::refresh_state() {
   QString text;
+  std::set<std::string> said;
   const auto say = [&](const Diagnostic& problem) {
     const QColor color = problem.severity == Severity::error     ? theme_->error
                          : problem.severity == Severity::warning ? theme_->warning
@@ -257,8 +265,12 @@ void ParameterPanel::refresh_state() {
       line = "<b>" + QString::fromStdString(where).toHtmlEscaped() + "</b>: " + line;
     if (!problem.hint.empty())
       line += " – <i>" + QString::fromStdString(problem.hint).toHtmlEscaped() + "</i>";
-    line = QString("<div style='color:%1'>%2</div>").arg(color.name(), line);
-    if (!text.contains(line)) text += line;
+    // The structure's check and the run may say the same of one parameter in other words.
+    if (!said.insert(problem.code + "\n" + problem.param + problem.port +
+                     (problem.param.empty() ? "\n" + problem.message : std::string()))
+             .second)
+      return;
+    text += QString("<div style='color:%1'>%2</div>").arg(color.name(), line);
   };
   for (const Diagnostic& problem : session_.problems())
     if (problem.node == node_) say(problem);

@@ -69,10 +69,9 @@ void ProblemsPanel::fill() {
   int errors = 0, warnings = 0;
   std::set<std::string> said;
   const auto add = [&](const Diagnostic& problem, const std::string& node) {
-    if (!said.insert(node + "\n" + problem.code + "\n" + problem.param + problem.port + "\n" +
-                     problem.message)
-             .second)
-      return;
+    // The structure's check and the run may say the same of one parameter in other words.
+    const std::string about = node + "\n" + problem.code + "\n" + problem.param + problem.port + "\n";
+    if (!said.insert(problem.param.empty() ? about + problem.message : about).second) return;
     errors += problem.severity == Severity::error;
     warnings += problem.severity == Severity::warning;
     QString where = QString::fromStdString(node);

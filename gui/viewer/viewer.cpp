@@ -20,6 +20,8 @@
 namespace kinegraph {
 namespace {
 
+constexpr double caption_row = 24;  // pixels from one caption to the next
+
 bool same_targets(const std::vector<Target>& a, const std::vector<Target>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const Target& x, const Target& y) { return x.node == y.node && x.port == y.port; });
@@ -224,7 +226,8 @@ void Viewer::frame_all() {
     const int frame = one.motion->frame_at(playback_.time());
     // A skin is thicker than the joints it hangs on, most of all around the head.
     const float skin = one.character ? 0.14f * static_cast<float>(one.motion->size) : 0;
-    SceneBox its = looks_.follow ? box_at(*one.motion, frame) : box_of(*one.motion);
+    // Points may all be in one place at one time.
+    SceneBox its = looks_.follow && !one.motion->markers ? box_at(*one.motion, frame) : box_of(*one.motion);
     if (looks_.follow) {
       its.low -= ground_under(*one.motion, frame);
       its.high -= ground_under(*one.motion, frame);
@@ -406,7 +409,8 @@ void Viewer::update_scene() {
       add_motion(cell.scene, *ready[i]->motion, seconds, looks, *theme_, ready[i]->character);
       captions.push_back(
           {QRectF(0, 0, 1, 1), caption_of(*ready[i]), i > 0 ? theme_->second : theme_->bone, false});
-      captions.back().cell.setTop(0.045 * static_cast<double>(i));
+      captions.back().cell.setTop(
+          std::min(0.9, caption_row * static_cast<double>(i) / std::max(1, stage_->height())));
     }
     cells.push_back(std::move(cell));
   } else if (wipe) {

@@ -27,7 +27,8 @@ void FileSearch::run() {
   told.start();
   std::set<QString> seen;
   for (const QString& folder : folders_) {
-    QDirIterator files(folder, QDir::Files | QDir::Readable, QDirIterator::Subdirectories);
+    QDirIterator files(folder, QDir::Files | QDir::Readable,
+                       QDirIterator::Subdirectories | QDirIterator::FollowSymlinks);
     while (files.hasNext() && !stopped_ && count < most_files) {
       const QString path = files.next();
       if (!seen.insert(path).second) continue;

@@ -42,7 +42,7 @@ void MainWindow::tell(const Diagnostics& problems, const QString& title) {
     notice_->say(title + "\n" + listed(problems));
     return;
   }
-  QMessageBox box(QMessageBox::Warning, tr("Kinegraph"), title, QMessageBox::Close, this);
+  QMessageBox box(QMessageBox::NoIcon, tr("Kinegraph"), title, QMessageBox::Close, this);
   box.setInformativeText(listed(problems));
   box.exec();
 }
@@ -126,7 +126,7 @@ bool MainWindow::save_as() {
 
 bool MainWindow::may_discard() {
   if (!session_.is_modified() || session_.is_read_only() || !options_.ask) return true;
-  QMessageBox box(QMessageBox::Question, tr("Kinegraph"), tr("Save the changes to %1?").arg(session_.title()),
+  QMessageBox box(QMessageBox::NoIcon, tr("Kinegraph"), tr("Save the changes to %1?").arg(session_.title()),
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
   box.setInformativeText(tr("Without saving they are lost."));
   box.setDefaultButton(QMessageBox::Save);

@@ -96,7 +96,7 @@ bool MainWindow::save_what_is_inside() {
   if (pages.empty() || !options_.ask) return true;
   QStringList names;
   for (int page : pages) names << session_.page_title(page);
-  QMessageBox box(QMessageBox::Question, tr("Kinegraph"), tr("Save %1 before running?").arg(names.join(", ")),
+  QMessageBox box(QMessageBox::NoIcon, tr("Kinegraph"), tr("Save %1 before running?").arg(names.join(", ")),
                   QMessageBox::Save | QMessageBox::Ignore | QMessageBox::Cancel, this);
   box.button(QMessageBox::Ignore)->setText(tr("Run unsaved"));
   box.setInformativeText(

@@ -175,6 +175,9 @@ QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QCo
 QTreeView, QListView, QTableView { background: %8; border: 1px solid %3; border-radius: 4px; }
 QHeaderView::section { background: %1; border: none; border-bottom: 1px solid %3; padding: 4px 6px; }
 QTabBar::tab { padding: 6px 12px; border: none; border-bottom: 2px solid transparent; color: %7; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
+QTabBar::close-button { image: url(:/kinegraph/close.png); border-radius: 3px; margin: 2px; } QTabBar::close-button:hover { background: %3; }
+QTabBar#pages { background: %1; }
 QTabBar::tab:hover { color: %4; }
 QTabBar::tab:focus { border-bottom-color: %5; color: %5; }
 QTabBar::tab:selected { border-bottom-color: %5; color: %4; }

@@ -31,8 +31,8 @@ const char* const every_port =
   "out": {"type": "Export", "params": {"file": "all.bvh"}, "inputs": {"motion": "edit.motion", "character": "mesh.character",
     "metrics": "figures.metrics"}})";
 
-const char* const states = R"("long_walk": {"type": "Gait", "params": {"seconds": 120}},
-  "long_sneak": {"type": "Gait", "params": {"seconds": 110, "gait": "sneak"}},
+const char* const states = R"("long_walk": {"type": "Gait", "params": {"seconds": 400}},
+  "long_sneak": {"type": "Gait", "params": {"seconds": 380, "gait": "sneak"}},
   "running": {"type": "TimeWarp", "inputs": {"source": "long_walk.motion", "reference": "long_sneak.motion"}},
   "waiting": {"type": "UnwarpTime", "inputs": {"motion": "running.warped", "warp": "running.warp"}},
   "gone": {"type": "Load", "params": {"file": "clips/nowhere.bvh"}},
@@ -74,7 +74,7 @@ void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
     for (clock.start(); clock.elapsed() < 60000;) {
       QApplication::processEvents(QEventLoop::AllEvents, 20);
       const NodeStatus* running = shot.window.evaluation().status("running");
-      if (running && running->state == NodeStatus::State::running && running->progress > 0.1) break;
+      if (running && running->state == NodeStatus::State::running) break;
     }
     shot.take_widget("node_states" + end, &shot.canvas());
     shot.window.evaluation().cancel();
@@ -110,7 +110,7 @@ void gestures(const Theme& theme, const QDir& into, const QString& end) {
     shot.open("reuse");
     shot.window.open(Shot::example("pipelines/sneakify"));
     shot.wait();
-    shot.canvas().zoom_at(QPointF(300, 200), 5);
+    shot.canvas().zoom_at(QPointF(300, 200), 2);
     shot.wait();
     shot.take("graph_in_graph" + end);
   }
@@ -191,7 +191,7 @@ void docks(const Theme& theme, const QDir& into, const QString& end) {
 void troubles(const Theme& theme, const QDir& into, const QString& end) {
   {
     Shot shot(theme, into);
-    shot.text(R"("walk": {"type": "Load", "params": {"file": "clips/wlak.bvh"}},
+    shot.text(R"("walk": {"type": "Load", "params": {"file": "takes/walk.bvh"}},
       "soft": {"type": "Filter", "inputs": {"motion": "walk.motion"}}, "feet": {"type": "Footskate"},
       "holo": {"type": "Hologram", "inputs": {"motion": "soft.motion"}})");
     shot.select("walk");
