@@ -18,26 +18,35 @@ namespace {
 struct Drawn {
   std::string name;
   ValuePtr value;
-  ValuePtr beside;  // a motion's contacts, the motion that contacts were found in; or none
+  ValuePtr
+      beside;  // a motion's contacts, the motion that contacts were found in or a character makes; or none
 };
+
+// An output's value, or none where it can't be had.
+ValuePtr value_of(Session& session, const Program& program, const std::string& node,
+                  const std::string& port) {
+  Progress silent(Progress::Form::none, program.terminal);
+  session.run({{node, port}}, silent, nullptr);
+  return session.evaluator().value(session.plan(), node, port);
+}
 
 // What a picture shows beside a value. It is an extra: where it can't be had, the picture does without.
 ValuePtr beside(Session& session, const Program& program, const Target& target) {
   Plan& plan = session.plan();
   auto source = plan.find_output(target.node, target.port);
   if (!source || source->node < 0) return {};
-  Progress silent(Progress::Form::none, program.terminal);
-  auto value_of = [&](const std::string& node, const std::string& port) {
-    session.run({{node, port}}, silent, nullptr);
-    return session.evaluator().value(plan, node, port);
-  };
   auto type = session.type_of(target);
   if (type == "Contacts") {
     const auto& inputs = plan.nodes[static_cast<std::size_t>(source->node)].inputs;
     auto motion = inputs.find("motion");
     if (motion == inputs.end() || motion->second.empty() || motion->second.front().node < 0) return {};
     const auto& from = motion->second.front();
-    return value_of(plan.nodes[static_cast<std::size_t>(from.node)].name, from.port);
+    return value_of(session, program, plan.nodes[static_cast<std::size_t>(from.node)].name, from.port);
+  }
+  if (type == "Character") {
+    const PlannedNode& node = plan.nodes[static_cast<std::size_t>(source->node)];
+    return node.type && node.type->find_output("motion") ? value_of(session, program, node.name, "motion")
+                                                         : ValuePtr();
   }
   const NodeType* detect = program.registry.find("DetectContacts");
   if (type != "Motion" || !detect) return {};
@@ -50,7 +59,7 @@ ValuePtr beside(Session& session, const Program& program, const Target& target) 
   auto name = node.name;
   plan.by_name[name] = static_cast<int>(plan.nodes.size());
   plan.nodes.push_back(std::move(node));
-  return value_of(name, "contacts");
+  return value_of(session, program, name, "contacts");
 }
 
 Canvas drawing_of(const std::vector<Drawn>& all, const PictureArguments& arguments,
@@ -61,18 +70,34 @@ Canvas drawing_of(const std::vector<Drawn>& all, const PictureArguments& argumen
     options.motion = dynamic_cast<const Motion*>(all[0].beside.get());
     return picture_of(*all[0].value, options);
   }
-  StripOptions options{.title = title,
-                       .subtitle = fmt::format("{} motions at one scale", all.size()),
-                       .moments = arguments.moments,
-                       .contact_bars = false};
+  StripOptions options{.title = title, .subtitle = "", .moments = arguments.moments, .contact_bars = false};
   std::vector<StripRow> rows;
-  for (const auto& one : all) {
-    auto motion = dynamic_cast<const Motion*>(one.value.get());
-    if (!motion)
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Drawn& one = all[i];
+    if (auto motion = dynamic_cast<const Motion*>(one.value.get())) {
+      rows.push_back({motion, one.name, dynamic_cast<const Contacts*>(one.beside.get())});
+    } else if (auto character = dynamic_cast<const Character*>(one.value.get())) {
+      // One that makes no motion of its own, or only stands there, is dressed in the one named before it.
+      auto own = dynamic_cast<const Motion*>(one.beside.get());
+      const bool dresses = i > 0 && dynamic_cast<const Motion*>(all[i - 1].value.get());
+      if (own && (own->frames() > 1 || !dresses))
+        rows.push_back({own, one.name});
+      else if (dresses)
+        rows.back().label += ", " + one.name;
+      else
+        throw UsageError(Diagnostic(error("no-picture", fmt::format("{} has no motion of its own", one.name))
+                                        .hinting("name the motion to dress it in before it")));
+      rows.back().character = character;
+    } else {
       throw UsageError(
-          error("no-picture", fmt::format("{} is no Motion; only motions are drawn together", one.name)));
-    rows.push_back({motion, one.name, dynamic_cast<const Contacts*>(one.beside.get())});
+          error("no-picture",
+                fmt::format("{} is no Motion and no Character; only those are drawn together", one.name)));
+    }
   }
+  if (rows.size() > 1)
+    options.subtitle = fmt::format("{} motions at one scale", rows.size());
+  else
+    rows[0].label.clear();  // the title says it
   return draw_strips(rows, options);
 }
 
@@ -106,6 +131,8 @@ int picture_of_files(const Program& program, const PictureArguments& arguments) 
     program.terminal.say(session.problems());
     if (!session.valid()) return exit_code::invalid;
     auto loaded = load_file(session, program, port);
+    if (port.empty() && loaded.port == "motion")  // a file with a mesh shows it
+      if (auto character = value_of(session, program, "load", "character")) loaded = {character, "character"};
     all.push_back({std::filesystem::path(file).stem().string(), loaded.value,
                    beside(session, program, {"load", loaded.port})});
   }

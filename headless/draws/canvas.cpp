@@ -143,6 +143,10 @@ void Canvas::text(Spot baseline, std::string_view utf8, Lettering lettering) {
   if (!utf8.empty())
     marks_.emplace_back(std::in_place_type<Text>, Text{baseline, std::string(utf8), lettering});
 }
+void Canvas::image(std::shared_ptr<const Pixels> pixels, double x, double y, double width, double height) {
+  if (pixels->width > 0 && pixels->height > 0)
+    marks_.emplace_back(std::in_place_type<Image>, Image{std::move(pixels), x, y, width, height});
+}
 void Canvas::begin_clip(double x, double y, double width, double height) {
   marks_.emplace_back(std::in_place_type<Clip>, Clip{x, y, width, height});
 }

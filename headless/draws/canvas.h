@@ -3,6 +3,7 @@
 // run time. Units are points of the picture, y down, origin at the top left.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -90,6 +91,12 @@ double text_width(std::string_view utf8, double size, bool bold = false);
 // Cut to a width, with an ellipsis where something had to go.
 std::string fitted(std::string_view utf8, double size, double width, bool bold = false);
 
+// Pixels to lay into a picture, such as a shaded mesh: rows from the top, 0xAARRGGBB, premultiplied by alpha.
+struct Pixels {
+  int width = 0, height = 0;
+  std::vector<std::uint32_t> argb;
+};
+
 class Canvas {
  public:
   Canvas(double width, double height);
@@ -100,6 +107,8 @@ class Canvas {
   void fill(Outline outline, Paint paint);
   void stroke(Outline outline, Pen pen);
   void text(Spot baseline, std::string_view utf8, Lettering lettering);
+  // Spread over a rectangle of the picture. A picture of no pixels draws nothing.
+  void image(std::shared_ptr<const Pixels> pixels, double x, double y, double width, double height);
   // What is drawn until the matching end() is cut to a rectangle, or laid over the picture as one sheet of an
   // opacity.
   void begin_clip(double x, double y, double width, double height);
@@ -123,6 +132,10 @@ class Canvas {
     std::string text;
     Lettering lettering;
   };
+  struct Image {
+    std::shared_ptr<const Pixels> pixels;
+    double x, y, width, height;
+  };
   struct Clip {
     double x, y, width, height;
   };
@@ -130,13 +143,16 @@ class Canvas {
     double opacity;
   };
   struct End {};
-  using Mark = std::variant<Fill, Stroke, Text, Clip, Group, End>;
+  using Mark = std::variant<Fill, Stroke, Text, Image, Clip, Group, End>;
   friend struct CairoPainter;
   friend struct SvgWriter;
 
   double width_, height_;
   std::vector<Mark> marks_;
 };
+
+// The pixels as a PNG file. Throws Failure ("cannot-draw").
+std::string png_of(const Pixels& pixels);
 
 // Bytes in the format that the path's ending names, .svg or .png; throws Failure ("unknown-picture-format").
 std::string encoded_picture(const Canvas& canvas, std::string_view path, std::string_view title);

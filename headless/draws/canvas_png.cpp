@@ -9,6 +9,40 @@
 
 namespace kinegraph {
 
+namespace {
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+
+// Cairo reads the pixels where they are: the surface must not outlive them.
+Surface surface_of(const Pixels& pixels) {
+  auto bytes = reinterpret_cast<unsigned char*>(const_cast<std::uint32_t*>(pixels.argb.data()));
+  return {cairo_image_surface_create_for_data(bytes, CAIRO_FORMAT_ARGB32, pixels.width, pixels.height,
+                                              4 * pixels.width),
+          cairo_surface_destroy};
+}
+
+void check(cairo_status_t status) {
+  if (status != CAIRO_STATUS_SUCCESS)
+    throw Failure(error("cannot-draw",
+                        std::string("the picture could not be made: ") + cairo_status_to_string(status)));
+}
+
+std::string png_bytes(cairo_surface_t* surface) {
+  std::string bytes;
+  auto append = [](void* out, const unsigned char* data, unsigned int length) {
+    static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  check(cairo_surface_write_to_png_stream(surface, append, &bytes));
+  return bytes;
+}
+
+}  // namespace
+
+std::string png_of(const Pixels& pixels) {
+  return png_bytes(surface_of(pixels).get());
+}
+
 struct CairoPainter {
   cairo_t* cairo;
   std::vector<double> opacities;  // of the open groups; -1 for a clip
@@ -72,6 +106,15 @@ struct CairoPainter {
     cairo_show_text(cairo, text.text.c_str());
     cairo_restore(cairo);
   }
+  void operator()(const Canvas::Image& image) {
+    const Surface surface = surface_of(*image.pixels);
+    cairo_save(cairo);
+    cairo_translate(cairo, image.x, image.y);
+    cairo_scale(cairo, image.width / image.pixels->width, image.height / image.pixels->height);
+    cairo_set_source_surface(cairo, surface.get(), 0, 0);
+    cairo_paint(cairo);
+    cairo_restore(cairo);
+  }
   void operator()(const Canvas::Clip& clip) {
     cairo_save(cairo);
     cairo_rectangle(cairo, clip.x, clip.y, clip.width, clip.height);
@@ -95,7 +138,7 @@ struct CairoPainter {
 };
 
 std::string Canvas::png(double pixels_per_point) const {
-  std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
+  Surface surface(
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(width_ * pixels_per_point)),
                                  static_cast<int>(std::ceil(height_ * pixels_per_point))),
       cairo_surface_destroy);
@@ -115,17 +158,8 @@ std::string Canvas::png(double pixels_per_point) const {
   CairoPainter painter{cairo.get(), {}};
   for (const auto& mark : marks_) std::visit(painter, mark);
 
-  std::string bytes;
-  auto append = [](void* out, const unsigned char* data, unsigned int length) {
-    static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
-    return CAIRO_STATUS_SUCCESS;
-  };
-  auto status = cairo_surface_write_to_png_stream(surface.get(), append, &bytes);
-  if (status == CAIRO_STATUS_SUCCESS) status = cairo_status(cairo.get());
-  if (status != CAIRO_STATUS_SUCCESS)
-    throw Failure(error("cannot-draw",
-                        std::string("the picture could not be made: ") + cairo_status_to_string(status)));
-  return bytes;
+  check(cairo_status(cairo.get()));
+  return png_bytes(surface.get());
 }
 
 }  // namespace kinegraph

@@ -5,6 +5,7 @@
 
 #include "headless/draws/canvas.h"
 #include "headless/draws/xml_text.h"
+#include "nodes/files/clip_json.h"
 
 namespace kinegraph {
 
@@ -90,6 +91,13 @@ struct SvgWriter {
                         decimal(text.at.x), decimal(text.at.y), decimal(style.size),
                         style.bold ? " font-weight=\"bold\"" : "", anchor, turned, hex(style.color),
                         opacity("fill-opacity", style.color.a), xml_text(text.text));
+  }
+  void operator()(const Canvas::Image& image) {
+    body += fmt::format(
+        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
+        "href=\"data:image/png;base64,{}\"/>\n",
+        decimal(image.x), decimal(image.y), decimal(image.width), decimal(image.height),
+        base64(png_of(*image.pixels)));
   }
   void operator()(const Canvas::Clip& clip) {
     auto name = fmt::format("c{}", ++named);

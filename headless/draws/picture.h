@@ -13,7 +13,7 @@ struct PictureOptions {
   std::string title;
   int moments = 0;  // of a strip; 0 = as many as look good
   // What belongs to the value, where it is known: a motion's contacts, the motion that contacts were found
-  // in.
+  // in or that a character makes.
   const Contacts* contacts = nullptr;
   const Motion* motion = nullptr;
 };

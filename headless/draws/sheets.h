@@ -5,6 +5,7 @@
 #include "headless/draws/canvas.h"
 #include "nodes/components/components.h"
 #include "nodes/motion/metrics.h"
+#include "nodes/motion/points.h"
 #include "nodes/style/stats.h"
 #include "nodes/time/warp.h"
 
@@ -19,6 +20,11 @@ Canvas draw_metrics(const Metrics& metrics, const std::string& title);
 // Each component as a small strip with a caption, its signal underneath with the segments shaded; last all
 // together.
 Canvas draw_components(const Components& components, const std::string& title);
+// Moments in a row with each point's tail, one moment large with labels, heights and speeds over time, and
+// where samples are missing. `moments`: 0 = as many as look good.
+Canvas draw_points(const Points& points, const std::string& title, int moments = 0);
+// "41 points · 902 frames · 60 fps · 15.03 s · no sample missing"
+std::string facts_of(const Points& points);
 // The metrics of ComponentMeaning: bars for d_emotion and each region, a column a component.
 bool is_meaning(const Metrics& metrics);
 Canvas draw_meaning(const Metrics& metrics, const std::string& title);

@@ -29,11 +29,11 @@ std::vector<Spot> hull_of(std::vector<Spot> spots) {
   return hull;
 }
 
+}  // namespace
+
 Color side_color(Side side) {
   return side == Side::left ? theme::left : side == Side::right ? theme::right : theme::centre;
 }
-
-}  // namespace
 
 Figure::Figure(const Skeleton& skeleton) {
   RestPose rest = rest_pose(skeleton);

@@ -13,6 +13,8 @@
 
 namespace kinegraph {
 
+Color side_color(Side side);
+
 // What is drawn for a skeleton, found once for all its poses.
 class Figure {
  public:

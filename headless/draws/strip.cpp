@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "headless/draws/contact_bars.h"
-#include "headless/draws/curves.h"
+#include "headless/draws/scale_bar.h"
 #include "headless/draws/skeleton_figure.h"
+#include "headless/draws/skin_figure.h"
 #include "headless/draws/strip_layout.h"
 #include "headless/draws/theme.h"
 #include "nodes/motion/elementary.h"
@@ -29,6 +31,9 @@ struct Row {
   // Extents of the figures about the followed point, metres on the page: over and under it; left of it in the
   // first moment, right of it in the last.
   double above = 0, below = 0, before = 0, after = 0;
+  std::optional<SkinFigure> skin = {};
+  double wide = 0;         // a mesh on the page, m, on the mean of the moments
+  bool stretched = false;  // some link at some time
 };
 
 Pose pose_of(const WorldMotion& world, std::size_t frame) {
@@ -48,17 +53,31 @@ Canvas empty_picture(const StripOptions& options) {
   return canvas;
 }
 
+SolidMesh mesh_of(const Row& row, std::size_t frame) {
+  return row.skin->posed(pose_for(*row.asked->character, *row.asked->motion, frame));
+}
+
 // Extent of the figures about the followed point, in metres on the page.
 void measure(Row& row, const StripLayout& layout, const Camera& unit_camera) {
-  double reach = 0.07 * row.figure.height();  // what limbs and head stand out beyond the joints
-  for (std::size_t frame : layout.frames)
-    for (int joint : row.figure.joints()) {
-      Spot spot = unit_camera.project(row.world.position(joint)[frame] - layout.followed[frame]);
+  // What limbs and head stand out beyond the joints; of a mesh every vertex is there.
+  double reach = (row.skin ? 0.01 : 0.07) * row.figure.height();
+  for (std::size_t frame : layout.frames) {
+    double leftmost = 1e300, rightmost = -1e300;
+    const auto include = [&](Vec3 place) {
+      Spot spot = unit_camera.project(place - layout.followed[frame]);
       row.above = std::max(row.above, reach - spot.y);
       row.below = std::max(row.below, reach + spot.y);
+      leftmost = std::min(leftmost, spot.x);
+      rightmost = std::max(rightmost, spot.x);
       if (frame == layout.frames.front()) row.before = std::max(row.before, reach - spot.x);
       if (frame == layout.frames.back()) row.after = std::max(row.after, reach + spot.x);
-    }
+    };
+    if (row.skin)
+      for (Vec3 place : mesh_of(row, frame).positions) include(place);
+    else
+      for (int joint : row.figure.joints()) include(row.world.position(joint)[frame]);
+    row.wide += (rightmost - leftmost) / static_cast<double>(layout.frames.size());
+  }
 }
 
 void draw_ground(Canvas& canvas, const StripLayout& layout, const Camera& camera, double height, double x0,
@@ -117,20 +136,36 @@ double stretch_of(const Row& row, int joint, std::size_t frame) {
   return logarithm(length / rest) / logarithm(2);
 }
 
-bool stretches(const Motion& motion) {
-  for (int joint = 1; joint < motion.joints(); ++joint)
-    if (motion.translates(joint)) return true;
+bool stretches(const Row& row) {
+  for (int joint : row.figure.joints()) {
+    if (joint == 0 || !row.asked->motion->translates(joint)) continue;
+    for (std::size_t t = 0; t < row.world.frames(); ++t)
+      if (std::abs(stretch_of(row, joint, t)) > 0.03) return true;
+  }
   return false;
 }
 
-// The side's colour, going over to the stretched or squashed one by how much the link is.
-Color link_color(const Row& row, int joint, std::size_t frame) {
-  const Side side = row.figure.side(joint);
-  const Color base = side == Side::left ? theme::left : side == Side::right ? theme::right : theme::centre;
+// A colour going over to the stretched or squashed one by how much the joint's link is.
+Color stretch_tint(const Row& row, int joint, std::size_t frame, Color base) {
   const double stretch = stretch_of(row, joint, frame);
   const double part = std::min(1.0, std::max(0.0, (std::abs(stretch) - 0.03) / 0.97));
   // The root of the part, so that a tenth of a length already shows.
   return mixed(base, stretch > 0 ? theme::stretched : theme::squashed, std::sqrt(part));
+}
+
+void draw_skin(Canvas& canvas, const Row& row, const StripLayout& layout, const Camera& camera,
+               std::size_t frame, const Spot& at) {
+  SolidMesh mesh = mesh_of(row, frame);
+  const Skeleton& own = *row.asked->character->skeleton;
+  row.skin->color(mesh, [&](int joint) {
+    const int moved = joint < 0 ? -1 : row.asked->motion->skeleton().find(own.joints[joint].name);
+    if (moved < 0) return clay();
+    const Color side = row.figure.side(moved) == Side::middle ? clay() : side_color(row.figure.side(moved));
+    // Of a rubber limb the stretch is what counts more.
+    const Color tinted = mixed(clay(), side, row.stretched ? 0.22 : 0.45);
+    return row.stretched ? stretch_tint(row, moved, frame, tinted) : tinted;
+  });
+  draw_mesh(canvas, camera, mesh, layout.followed[frame], at);
 }
 
 void draw_row(Canvas& canvas, const Row& row, const StripLayout& layout, const Camera& camera,
@@ -156,17 +191,30 @@ void draw_row(Canvas& canvas, const Row& row, const StripLayout& layout, const C
                  {faded(row.figure.side(hand) == Side::left ? theme::left : theme::right, 0.28), 1.0});
   canvas.end();
 
-  for (std::size_t frame : layout.frames)
-    row.figure.draw_shadow(canvas, camera, pose_of(row.world, frame), layout.followed[frame],
-                           {layout.across[frame], floor_y}, layout.floor);
+  const auto place_of = [&](std::size_t frame) { return Spot{layout.across[frame], floor_y}; };
+  for (std::size_t frame : layout.frames) {
+    if (row.skin)
+      draw_mesh_shadow(canvas, camera, mesh_of(row, frame), layout.followed[frame], place_of(frame),
+                       layout.floor);
+    else
+      row.figure.draw_shadow(canvas, camera, pose_of(row.world, frame), layout.followed[frame],
+                             place_of(frame), layout.floor);
+  }
   if (row.asked->contacts)
     for (std::size_t frame : layout.frames) draw_contact_marks(canvas, row, layout, camera, frame, floor_y);
-  for (std::size_t frame : layout.frames)
-    row.figure.draw(
-        canvas, camera, pose_of(row.world, frame), layout.followed[frame], {layout.across[frame], floor_y},
-        stretches(motion)
-            ? Figure::JointColor([&row, frame](int joint) { return link_color(row, joint, frame); })
-            : nullptr);
+  for (std::size_t frame : layout.frames) {
+    if (row.skin) {
+      draw_skin(canvas, row, layout, camera, frame, place_of(frame));
+      continue;
+    }
+    Figure::JointColor color;
+    if (row.stretched)
+      color = [&row, frame](int joint) {
+        return stretch_tint(row, joint, frame, side_color(row.figure.side(joint)));
+      };
+    row.figure.draw(canvas, camera, pose_of(row.world, frame), layout.followed[frame], place_of(frame),
+                    color);
+  }
 
   double label_y = floor_y + row.below * camera.scale() + 20;
   for (std::size_t frame : layout.frames) {
@@ -176,16 +224,6 @@ void draw_row(Canvas& canvas, const Row& row, const StripLayout& layout, const C
     canvas.text({layout.across[frame], label_y + 14}, fmt::format("{}", frame),
                 {.size = 9.5, .color = theme::faint, .anchor = Anchor::middle});
   }
-}
-
-void draw_scale_bar(Canvas& canvas, double right, double y, double scale) {
-  double metres = 1;
-  while (metres * scale > 160) metres /= metres >= 0.999 && metres < 1.001 ? 2 : 5;
-  while (metres * scale < 24) metres *= 2;
-  double x = right - metres * scale;
-  canvas.stroke(polyline({{x, y - 4}, {x, y}, {right, y}, {right, y - 4}}), {theme::muted, 1.1});
-  canvas.text({(x + right) / 2, y - 6}, fmt::format("{:g} m", metres),
-              {.size = 10, .color = theme::muted, .anchor = Anchor::middle});
 }
 
 }  // namespace
@@ -208,6 +246,8 @@ Canvas draw_strips(const std::vector<StripRow>& asked, const StripOptions& optio
   for (const auto& row : asked) {
     if (!row.motion || row.motion->frames() == 0 || row.motion->joints() == 0) continue;
     rows.push_back({&row, world_motion(*row.motion), Figure(row.motion->skeleton()), {}, 0});
+    if (row.character) rows.back().skin.emplace(*row.character);
+    rows.back().stretched = stretches(rows.back());
   }
   if (rows.empty()) return empty_picture(options);
 
@@ -257,8 +297,7 @@ Canvas draw_strips(const std::vector<StripRow>& asked, const StripOptions& optio
   Canvas canvas(options.width, 100);
   double y = theme::draw_title(
       canvas, options.title, options.subtitle.empty() ? facts_of(*rows[0].asked->motion) : options.subtitle);
-  const bool stretched =
-      std::any_of(rows.begin(), rows.end(), [](const Row& row) { return stretches(*row.asked->motion); });
+  const bool stretched = std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.stretched; });
   double key = options.width - theme::margin - (stretched ? 330 : 150);
   if (stretched) {
     key = theme::draw_key(canvas, {key, 40}, "stretched", theme::stretched);
@@ -280,6 +319,12 @@ Canvas draw_strips(const std::vector<StripRow>& asked, const StripOptions& optio
   // Nor may an outstretched arm leave it.
   left = std::max(left, theme::margin - 8 + std::min(before * scale, 0.25 * options.width));
   right = std::min(right, options.width - theme::margin + 8 - std::min(after * scale, 0.25 * options.width));
+  // Meshes broader than the room between two moments hide each other.
+  if (options.moments == 0 && least_gap > 1e299)
+    for (const auto& row : rows)
+      if (row.skin)
+        count =
+            std::min(count, std::max(3, static_cast<int>((right - left) / (0.85 * row.wide * scale)) + 1));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     auto& row = rows[i];
     row.below = below;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "headless/draws/canvas.h"
+#include "nodes/motion/character.h"
 #include "nodes/motion/contacts.h"
 #include "nodes/motion/motion.h"
 
@@ -15,6 +16,8 @@ struct StripRow {
   const Motion* motion = nullptr;
   std::string label;                   // "before"; "" = none
   const Contacts* contacts = nullptr;  // of the same frames, or null
+  // Drawn instead of the skeleton's figure, joints matched by name; or null.
+  const Character* character = nullptr;
 };
 struct StripOptions {
   std::string title;
@@ -26,7 +29,8 @@ struct StripOptions {
 
 // A motion that travels is seen from its side; where the moments stand far enough apart they are drawn to
 // scale along the path, else they are spread evenly over time. One that stays in place is seen from the
-// front, turned a little. A motion without frames or joints gives a picture that says so.
+// front, turned a little. Throws Failure ("no-common-joint") for a character of other joints. A motion
+// without frames or joints gives a picture that says so.
 Canvas draw_strips(const std::vector<StripRow>& rows, const StripOptions& options);
 
 // "277 frames · 120 fps · 2.31 s · 31 joints · travels 3.42 m"

@@ -67,6 +67,23 @@ std::optional<NonFinite> Character::non_finite() const {
   return {};
 }
 
+Affine skinning_map(const MeshPart& part, std::size_t vertex, const std::vector<Affine>& of_joint) {
+  const std::size_t first = vertex * static_cast<std::size_t>(part.influences);
+  double whole = 0;
+  for (int k = 0; k < part.influences; ++k) whole += part.weights[first + k];
+  if (!(whole > 0)) return part.influences > 0 ? of_joint[part.joints[first]] : Affine();
+  Affine map;
+  for (auto& row : map.rows) row.fill(0);
+  for (int k = 0; k < part.influences; ++k) {
+    const double share = part.weights[first + k] / whole;
+    if (share == 0) continue;
+    const Affine& one = of_joint[part.joints[first + k]];
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 4; ++j) map.rows[i][j] += share * one.rows[i][j];
+  }
+  return map;
+}
+
 std::vector<Vec3> posed_vertices(const Character& character, const MeshPart& part, const Pose& pose,
                                  const std::vector<double>& morph_weights) {
   std::vector<Vec3> out(part.vertices());
@@ -91,10 +108,7 @@ std::vector<Vec3> posed_vertices(const Character& character, const MeshPart& par
       out[v] = point(rigid, p);
       continue;
     }
-    const std::size_t first = v * static_cast<std::size_t>(part.influences);
-    for (int k = 0; k < part.influences; ++k)
-      if (const double weight = part.weights[first + k]; weight != 0)
-        out[v] += weight * point(maps[part.joints[first + k]], p);
+    out[v] = point(skinning_map(part, v, maps), p);
   }
   return out;
 }

@@ -14,7 +14,9 @@
 namespace kinegraph {
 
 // The joints that a mesh may be bound to. A vertex v of weight w_k on joint k stands at
-//   Σ_k w_k J_k B_k v,   J_k: the joint's world position and orientation, B_k: inverse_bind[k].
+//   Σ_k w_k J_k B_k v / Σ_k w_k,   J_k: the joint's world position and orientation, B_k: inverse_bind[k].
+// The sum is 1 in a sound file; where it isn't, dividing by it is what Blender and three.js do, and what keeps
+// the mesh whole. A vertex of no weight at all rides on its first joint.
 // J has no scale: scales of the file's nodes and its unit are folded into B.
 struct Skin {
   std::string name;
@@ -41,7 +43,7 @@ struct MeshPart {
   int skin = -1;                      // -1: rigid, rides on `joint`
   int influences = 0;                 // entries a vertex
   std::vector<std::uint32_t> joints;  // vertices * influences, indices into Skin::joints
-  std::vector<float> weights;         // as many; a vertex's sum is 1 in a sound file
+  std::vector<float> weights;         // as many
   // Rigid: the vertex stands at J placed v; `joint` -1: fixed in the world, at placed v.
   int joint = -1;
   Affine placed;
@@ -92,6 +94,8 @@ class Character final : public Value {
 };
 ValuePtr decode_character(Decoder& in);
 
+// What brings a skinned part's vertex to the world: the weighted map of `of_joint` (one a joint of its skin).
+Affine skinning_map(const MeshPart& part, std::size_t vertex, const std::vector<Affine>& of_joint);
 // World position of a part's vertices, x y z each, with the skeleton as `pose` has it (of `character`'s own
 // skeleton). `morph_weights`: one a target, or empty.
 std::vector<Vec3> posed_vertices(const Character& character, const MeshPart& part, const Pose& pose,

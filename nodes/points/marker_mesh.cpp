@@ -68,15 +68,7 @@ std::vector<Affine> rest_maps(const Character& character, const MeshPart& part, 
   std::vector<Affine> of_joint;
   for (std::size_t k = 0; k < skin.joints.size(); ++k)
     of_joint.push_back(world(skin.joints[k]) * skin.inverse_bind[k]);
-  for (std::size_t v = 0; v < maps.size(); ++v) {
-    for (auto& row : maps[v].rows) row.fill(0);
-    for (int k = 0; k < part.influences; ++k) {
-      const std::size_t at = v * static_cast<std::size_t>(part.influences) + static_cast<std::size_t>(k);
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 4; ++j)
-          maps[v].rows[i][j] += part.weights[at] * of_joint[part.joints[at]].rows[i][j];
-    }
-  }
+  for (std::size_t v = 0; v < maps.size(); ++v) maps[v] = skinning_map(part, v, of_joint);
   return maps;
 }
 
