@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "headless/draws/camera.h"
+#include "headless/draws/curves.h"
+#include "headless/draws/points_layout.h"
 #include "headless/draws/sheets.h"
 #include "headless/draws/skeleton_figure.h"
 #include "headless/draws/theme.h"
@@ -44,34 +46,135 @@ std::vector<Moment> moments_of(const Components& components) {
   return out;
 }
 
+Points rebuilt(const Components& components, const ComponentSegment& segment,
+               const std::vector<std::size_t>& entries, Work& work) {
+  const Rows x = channels_from_signals(components, signals_of(components, segment), entries);
+  return points_of(components, x, segment, {true, false}, work);
+}
+
+std::vector<std::size_t> all_entries(const Components& components) {
+  std::vector<std::size_t> all(components.count());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+// Of components of points: what all their pictures share.
+struct Cloud {
+  std::vector<Vec3> mean;  // where each point is without any component
+  Vec3 low, high;          // of the mean, and of all components together
+  double height = 0;       // of the mean
+  std::vector<std::pair<int, int>> links;
+  std::vector<Side> sides;
+};
+Cloud cloud_of(const Components& components, Work& work) {
+  Cloud cloud;
+  if (components.space.of_motions || components.segments.empty()) return cloud;
+  cloud.low = {1e300, 1e300, 1e300};
+  cloud.high = -cloud.low;
+  const auto include = [&](Vec3 place) {
+    for (int axis = 0; axis < 3; ++axis) {
+      cloud.low[axis] = std::min(cloud.low[axis], place[axis]);
+      cloud.high[axis] = std::max(cloud.high[axis], place[axis]);
+    }
+  };
+  const Points still = rebuilt(components, components.segments.front(), {}, work);
+  const int count = static_cast<int>(still.labels.size());
+  for (int i = 0; i < count; ++i) {
+    cloud.mean.push_back(still.track(i)[0]);
+    include(cloud.mean.back());
+  }
+  cloud.height = cloud.high.y - cloud.low.y;
+  for (const ComponentSegment& segment : components.segments) {
+    const Points clip = rebuilt(components, segment, all_entries(components), work);
+    for (int i = 0; i < count; ++i)
+      for (std::size_t t = 0; t < clip.frames; ++t) include(clip.track(i)[t]);
+  }
+  const Points& first = *components.segments.front().points;
+  cloud.links = first.labels != still.labels ? still.links
+                : first.links.empty()        ? steady_links(first, bridged(first), 64)
+                                             : first.links;
+  cloud.sides = sides_of(still.labels);
+  return cloud;
+}
+
+// From the lowest joint to a head above the highest, over the moments of all components together.
+double tallest_of(const Components& components, const std::vector<Moment>& shown, Work& work) {
+  double tallest = 0;
+  for (std::size_t s = 0; s < components.segments.size(); ++s) {
+    const ComponentSegment& segment = components.segments[s];
+    if (!segment.motion) return 0;
+    const Rows x =
+        channels_from_signals(components, signals_of(components, segment), all_entries(components));
+    const Motion motion = motion_of(components, x, segment, {true, false}, work);
+    const Figure figure(motion.skeleton());
+    double highest = 1e-3;
+    for (const Moment& moment : shown) {
+      if (moment.segment != s) continue;
+      const Pose pose = pose_at(motion, moment.own_frame);
+      for (int joint : figure.joints())
+        highest = std::max(highest, pose.positions[static_cast<std::size_t>(joint)].y);
+    }
+    tallest = std::max(tallest, highest + 0.07 * figure.height());
+  }
+  return tallest;
+}
+
 class Painter {
  public:
   Painter(Canvas& canvas, const Components& components, Work& work)
-      : canvas_(canvas), components_(components), work_(work), moments_(moments_of(components)) {}
+      : canvas_(canvas),
+        components_(components),
+        work_(work),
+        moments_(moments_of(components)),
+        cloud_(cloud_of(components, work)),
+        tallest_(tallest_of(components, moments_, work)) {}
+
+  // How many times as far from their mean the points of these components are drawn, so that what moves
+  // little, as a face does, shows.
+  double magnified(const std::vector<std::size_t>& entries) const {
+    if (components_.space.of_motions) return 1;
+    double farthest = 0;
+    for (const ComponentSegment& segment : components_.segments) {
+      const Points clip = rebuilt(components_, segment, entries, work_);
+      for (std::size_t i = 0; i < cloud_.mean.size(); ++i)
+        for (std::size_t t = 0; t < clip.frames; ++t)
+          farthest = std::max(farthest, norm(clip.track(static_cast<int>(i))[t] - cloud_.mean[i]));
+    }
+    double times = 1;
+    for (double more : {2.0, 4.0, 8.0})
+      if (farthest > 0 && more * farthest < 0.25 * cloud_.height) times = more;
+    return times;
+  }
 
   // Poses of these components at the moments, standing on `floor`.
-  void strip(const std::vector<std::size_t>& entries, double floor) const {
-    canvas_.fill(
-        rectangle(left_edge(), floor - 7, right_edge() - left_edge(), 14),
-        Paint::along({0, floor - 7}, {0, floor + 7},
-                     {{0, faded(theme::floor, 0.3)}, {0.4, theme::floor}, {1, faded(theme::floor, 0.2)}}));
+  void strip(const std::vector<std::size_t>& entries, double times, double floor) const {
+    if (components_.space.of_motions)
+      canvas_.fill(
+          rectangle(left_edge(), floor - 7, right_edge() - left_edge(), 14),
+          Paint::along({0, floor - 7}, {0, floor + 7},
+                       {{0, faded(theme::floor, 0.3)}, {0.4, theme::floor}, {1, faded(theme::floor, 0.2)}}));
     for (std::size_t s = 0; s < components_.segments.size(); ++s) {
       const ComponentSegment& segment = components_.segments[s];
+      if (!segment.motion) {
+        dots(rebuilt(components_, segment, entries, work_), s, times, floor);
+        continue;
+      }
       const Rows x = channels_from_signals(components_, signals_of(components_, segment), entries);
-      if (segment.motion)
-        figures(motion_of(components_, x, segment, {true, false}, work_), s, floor);
-      else
-        dots(points_of(components_, x, segment, {true, false}, work_), s, floor);
+      figures(motion_of(components_, x, segment, {true, false}, work_), s, floor);
     }
+  }
+
+  // Seconds of each segment.
+  void time_axes(double y) const {
+    for (const ComponentSegment& segment : components_.segments)
+      draw_time_axis(canvas_, x_of(segment.start), x_of(segment.end) - 16, y,
+                     static_cast<double>(segment.frames()) / components_.fps *
+                         (1 - 16 / (x_of(segment.end) - x_of(segment.start))));
   }
 
   // Signals of these components in a box of signal_height below `top`, segments shaded in turn.
   void signals(const std::vector<std::size_t>& entries, double top, bool named) const {
     const double bottom = top + signal_height;
-    const auto x_of = [&](std::size_t frame) {
-      return left_edge() + static_cast<double>(frame) / static_cast<double>(components_.frames()) *
-                               (right_edge() - left_edge());
-    };
     for (std::size_t s = 0; s < components_.segments.size(); ++s) {
       const double x0 = x_of(components_.segments[s].start), x1 = x_of(components_.segments[s].end);
       canvas_.fill(rectangle(x0, top, x1 - x0, signal_height), s % 2 ? theme::floor : theme::panel);
@@ -103,10 +206,15 @@ class Painter {
   }
 
  private:
+  double x_of(std::size_t frame) const {
+    return left_edge() + static_cast<double>(frame) / static_cast<double>(components_.frames()) *
+                             (right_edge() - left_edge());
+  }
+
   // All figures from one side, half in front: they face along the page.
   void figures(const Motion& motion, std::size_t segment, double floor) const {
     const Figure figure(motion.skeleton());
-    const Camera camera({-1, 0, 0.35}, 0.12, (figure_height - 8) / (1.08 * figure.height()));
+    const Camera camera({-1, 0, 0.35}, 0.12, (figure_height - 8) / (1.04 * tallest_));
     for (const Moment& moment : moments_)
       if (moment.segment == segment)
         figure.draw_shadow(canvas_, camera, pose_at(motion, moment.own_frame), {}, {moment.x, floor}, 0);
@@ -115,28 +223,34 @@ class Painter {
         figure.draw(canvas_, camera, pose_at(motion, moment.own_frame), {}, {moment.x, floor});
   }
 
-  void dots(const Points& points, std::size_t segment, double floor) const {
-    Vec3 low{1e300, 1e300, 1e300}, high = -low;
-    for (int i = 0; i < static_cast<int>(points.labels.size()); ++i)
-      for (std::size_t t = 0; t < points.frames; ++t)
-        for (int axis = 0; axis < 3; ++axis) {
-          low[axis] = std::min(low[axis], points.track(i)[t][axis]);
-          high[axis] = std::max(high[axis], points.track(i)[t][axis]);
-        }
-    const Vec3 middle = 0.5 * (low + high);
+  // Points at the moments, `times` as far from their mean as they are, with a line from there.
+  void dots(const Points& points, std::size_t segment, double times, double floor) const {
     const double room = (right_edge() - left_edge()) / moments - 8;
-    const double scale = std::min((figure_height - 10) / std::max(high.y - low.y, 1e-6),
-                                  room / std::max(high.x - low.x, 1e-6));
+    const double scale =
+        std::min((figure_height - 10) / std::max(cloud_.high.y - cloud_.low.y, 1e-6),
+                 room / std::max({cloud_.high.x - cloud_.low.x, 0.4 * (cloud_.high.z - cloud_.low.z), 1e-6}));
     const Camera camera({0.25, 0, 1}, 0.05, scale);
+    const Vec3 middle = 0.5 * (cloud_.low + cloud_.high);
     for (const Moment& moment : moments_) {
       if (moment.segment != segment) continue;
-      const auto spot = [&](int label) {
-        return Spot{moment.x, floor - figure_height / 2} +
-               camera.project(points.track(label)[moment.own_frame] - middle);
+      const auto page = [&](Vec3 place) {
+        return Spot{moment.x, floor - figure_height / 2} + camera.project(place - middle);
       };
-      for (const auto& [a, b] : points.links) canvas_.stroke(polyline({spot(a), spot(b)}), {theme::faint, 1});
-      for (int i = 0; i < static_cast<int>(points.labels.size()); ++i)
-        canvas_.fill(ellipse(spot(i), 1.7, 1.7), theme::left);
+      const auto place = [&](int label) {
+        const Vec3 rest = cloud_.mean[static_cast<std::size_t>(label)];
+        return rest + times * (points.track(label)[moment.own_frame] - rest);
+      };
+      for (const auto& [a, b] : cloud_.links)
+        canvas_.stroke(polyline({page(place(a)), page(place(b))}), {faded(theme::faint, 0.55), 0.9});
+      for (int i = 0; i < static_cast<int>(points.labels.size()); ++i) {
+        const Side side = cloud_.sides[static_cast<std::size_t>(i)];
+        const bool many = points.labels.size() > 64;
+        const Color color = side == Side::middle && many ? theme::left : side_color(side);
+        if (points.labels.size() <= 64)
+          canvas_.stroke(polyline({page(cloud_.mean[static_cast<std::size_t>(i)]), page(place(i))}),
+                         {theme::bad, 1.1});
+        canvas_.fill(ellipse(page(place(i)), many ? 1.3 : 1.7, many ? 1.3 : 1.7), color);
+      }
     }
   }
 
@@ -144,6 +258,8 @@ class Painter {
   const Components& components_;
   Work& work_;
   std::vector<Moment> moments_;
+  Cloud cloud_;
+  double tallest_;
 };
 
 // "48 % of the variance · 0.86 Hz · moves RightHand, LeftHand, Head"
@@ -175,23 +291,22 @@ Canvas draw_components(const Components& components, const std::string& title) {
   if (components.frames() == 0) return canvas;
   Alone work;
   const Painter painter(canvas, components, work);
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < components.count(); ++i) {
-    all.push_back(i);
-    const std::string name = fmt::format("u{}", i + 1);
-    canvas.text({theme::margin, y + 14}, name,
-                {.size = 14, .color = theme::series(static_cast<int>(i)), .bold = true});
-    canvas.text({left_edge(), y + 14}, fitted(caption(components, i), 11, width - 2 * theme::margin - inset),
+  const auto row = [&](const std::string& name, Color color, std::string words,
+                       const std::vector<std::size_t>& entries) {
+    const double times = painter.magnified(entries);
+    if (times > 1) words += fmt::format(" · drawn {:g} times as far from the mean", times);
+    canvas.text({theme::margin, y + 14}, name, {.size = 14, .color = color, .bold = true});
+    canvas.text({left_edge(), y + 14}, fitted(words, 11, width - 2 * theme::margin - inset),
                 {.size = 11, .color = theme::ink});
-    painter.strip({i}, y + 22 + figure_height);
-    painter.signals({i}, y + 36 + figure_height, false);
-    y += 36 + figure_height + signal_height + 22;
-  }
-  canvas.text({theme::margin, y + 14}, "all", {.size = 14, .color = theme::ink, .bold = true});
-  canvas.text({left_edge(), y + 14}, "all of them together", {.size = 11, .color = theme::ink});
-  painter.strip(all, y + 22 + figure_height);
-  painter.signals(all, y + 36 + figure_height, true);
-  canvas.set_height(y + 36 + figure_height + signal_height + 34);
+    painter.strip(entries, times, y + 26 + figure_height);
+    painter.signals(entries, y + 40 + figure_height, entries.size() == components.count());
+    y += 40 + figure_height + signal_height + 22;
+  };
+  for (std::size_t i = 0; i < components.count(); ++i)
+    row(fmt::format("u{}", i + 1), theme::series(static_cast<int>(i)), caption(components, i), {i});
+  row("all", theme::ink, "all of them together", all_entries(components));
+  painter.time_axes(y - 4);
+  canvas.set_height(y + 36);
   return canvas;
 }
 

@@ -57,24 +57,31 @@ struct Plate {
 };
 
 // A key light from above left in front of the picture, a weak one from the other side, and the sky.
-Color lit(Color color, Vec3 normal, const Camera& camera, bool back) {
-  const Vec3 toward = cross(camera.right(), camera.up());
-  const Vec3 key = normalized(-0.55 * camera.right() + 0.75 * camera.up() + 0.75 * toward);
-  const Vec3 fill = normalized(0.8 * camera.right() + 0.1 * camera.up() + 0.5 * toward);
-  double light = 0.50 + 0.11 * dot(normal, camera.up()) + 0.52 * std::max(0.0, dot(normal, key)) +
-                 0.13 * std::max(0.0, dot(normal, fill));
+struct Lights {
+  Vec3 up, toward, key, fill, half;
+  explicit Lights(const Camera& camera)
+      : up(camera.up()),
+        toward(cross(camera.right(), camera.up())),
+        key(normalized(-0.55 * camera.right() + 0.75 * camera.up() + 0.75 * toward)),
+        fill(normalized(0.8 * camera.right() + 0.1 * camera.up() + 0.5 * toward)),
+        half(normalized(key + toward)) {}
+};
+
+Color lit(Color color, Vec3 normal, const Lights& lights, bool back) {
+  double light = 0.50 + 0.11 * dot(normal, lights.up) + 0.52 * std::max(0.0, dot(normal, lights.key)) +
+                 0.13 * std::max(0.0, dot(normal, lights.fill));
   // What turns away from the viewer darkens, so that folds and outlines show.
-  const double facing = std::max(0.0, dot(normal, toward));
+  const double facing = std::max(0.0, dot(normal, lights.toward));
   light *= 0.72 + 0.28 * std::min(1.0, 2.2 * facing);
   if (back) light *= 0.6;
-  const double shine = std::max(0.0, dot(normal, normalized(key + toward)));
+  const double shine = std::max(0.0, dot(normal, lights.half));
   const double spot = shine * shine * shine * shine;
   const double gloss = back ? 0 : 0.10 * spot * spot * spot;
   auto channel = [&](double value) { return std::clamp(value * light * 1.04 + gloss, 0.0, 1.0); };
   return {channel(color.r), channel(color.g), channel(color.b), 1};
 }
 
-void fill_triangle(Plate& plate, const Camera& camera, const Corner (&corners)[3], Vec3 flat, bool shaded) {
+void fill_triangle(Plate& plate, const Lights& lights, const Corner (&corners)[3], Vec3 flat, bool shaded) {
   const Corner &a = corners[0], &b = corners[1], &c = corners[2];
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (!(std::abs(area) > 1e-12)) return;
@@ -83,8 +90,7 @@ void fill_triangle(Plate& plate, const Camera& camera, const Corner (&corners)[3
   const int x1 = std::min(wide - 1, static_cast<int>(std::ceil(std::max({a.x, b.x, c.x}))));
   const int y0 = std::max(0, static_cast<int>(std::floor(std::min({a.y, b.y, c.y}))));
   const int y1 = std::min(tall - 1, static_cast<int>(std::ceil(std::max({a.y, b.y, c.y}))));
-  const Vec3 toward = cross(camera.right(), camera.up());
-  const bool back = dot(flat, toward) < 0;
+  const bool back = dot(flat, lights.toward) < 0;
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) {
       const double px = x + 0.5, py = y + 0.5;
@@ -104,7 +110,7 @@ void fill_triangle(Plate& plate, const Camera& camera, const Corner (&corners)[3
       if (shaded) {
         Vec3 normal = normalized(of_a * a.normal + of_b * b.normal + of_c * c.normal);
         if (!(norm(normal) > 0)) normal = normalized(flat);
-        color = lit(color, back ? -normal : normal, camera, back);
+        color = lit(color, back ? -normal : normal, lights, back);
       }
       plate.color[at] = {static_cast<float>(color.r), static_cast<float>(color.g),
                          static_cast<float>(color.b), 1};
@@ -167,6 +173,7 @@ void draw(Canvas& canvas, const Camera& camera, const SolidMesh& mesh, Vec3 orig
         {spot.x, spot.y, camera.depth(mesh.positions[v] - origin), mesh.normals[v], mesh.colors[v]});
   }
   auto plate = Plate::around(corners);
+  const Lights lights(camera);
   if (!plate) return;
   for (Corner& corner : corners) {
     corner.x = (corner.x - plate->x0) * density * samples;
@@ -178,7 +185,7 @@ void draw(Canvas& canvas, const Camera& camera, const SolidMesh& mesh, Vec3 orig
     if (!std::isfinite(three[0].x + three[0].y + three[1].x + three[1].y + three[2].x + three[2].y)) continue;
     const Vec3 flat =
         cross(mesh.positions[v[1]] - mesh.positions[v[0]], mesh.positions[v[2]] - mesh.positions[v[0]]);
-    fill_triangle(*plate, camera, three, flat, shaded);
+    fill_triangle(*plate, lights, three, flat, shaded);
   }
   auto colors = pixels_of(*plate);
   if (shaded) add_rim(colors, plate->width, plate->height);

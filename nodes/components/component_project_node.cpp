@@ -3,6 +3,7 @@
 #include "graph/compute.h"
 #include "graph/node_type.h"
 #include "nodes/components/rebuild.h"
+#include "nodes/motion/moving_root.h"
 
 namespace kinegraph {
 namespace {
@@ -18,6 +19,7 @@ void project(Compute& node) {
                                           : "the components are of points, the clip is a motion")
                       .at_port("motion")
                       .hinting("link a clip of the kind that ICA was given"));
+  if (segment.motion) segment.motion = with_moving_root(segment.motion, node.work());
   Components out = components;
   out.fps = segment.motion ? segment.motion->fps() : segment.points->fps;
   out.segments.clear();
@@ -42,6 +44,7 @@ NodeType component_project_node() {
   NodeType type;
   type.name = "ComponentProject";
   type.category = "components";
+  type.code_version = 2;
   type.help = "Finds the signals of a clip that was not among those the components were made from.";
   type.source = "u = (P A)⁺ (x - E{x}); Cao et al. 2003 §6";
   type.keywords = {"ica", "apply", "unseen"};

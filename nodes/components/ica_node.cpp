@@ -4,6 +4,7 @@
 #include "graph/node_type.h"
 #include "nodes/components/ica.h"
 #include "nodes/motion/joint_pattern.h"
+#include "nodes/motion/moving_root.h"
 #include "nodes/node_params.h"
 
 namespace kinegraph {
@@ -45,15 +46,17 @@ void compare_skeletons(const ChannelSpace& space, const std::vector<std::shared_
 void decompose_inputs(Compute& node) {
   const Params& params = node.params();
   const auto values = node.values("motions");
-  const auto motions = all_as<Motion>(values);
+  auto motions = all_as<Motion>(values);
   const auto points = all_as<Points>(values);
   if (!motions.empty() && !points.empty())
     throw Failure(error("mixed-inputs", "some inputs are motions, others points")
                       .at_port("motions")
                       .hinting("link clips of one kind"));
   if (!motions.empty()) {
-    for (const auto& motion : motions)
+    for (auto& motion : motions) {
       check_same_rate(motions.front()->fps(), motion->fps(), "motions", "motions");
+      motion = with_moving_root(motion, node.work());
+    }
     const auto chosen =
         chosen_joints(params.text("joints"), motions.front()->skeleton(), "joints", node.work());
     ChannelSpace space = space_of_motions(representation_from(params.text("representation")), motions, chosen,
@@ -80,7 +83,7 @@ NodeType ica_node() {
   NodeType type;
   type.name = "ICA";
   type.category = "components";
-  type.code_version = 2;
+  type.code_version = 3;
   type.help =
       "Splits one or several clips, joined, into independent components: signals over time, each moving the "
       "whole body in its own way.";

@@ -56,6 +56,15 @@ class Exported {
       if (content.port == port) return content.value;
     return nullptr;
   }
+  // The first value of its kind; throws where the file has none.
+  template <class T>
+  std::shared_ptr<const T> read(const std::string& file) const {
+    FileStore files;
+    Alone work;
+    for (const FileContent& content : read_motion_file((folder_ / file).string(), {}, files, work).contents)
+      if (auto found = std::dynamic_pointer_cast<const T>(content.value)) return found;
+    throw Failure(error("nothing", "no such value in " + file));
+  }
   std::shared_ptr<const Motion> motion(const std::string& file) const {
     return std::dynamic_pointer_cast<const Motion>(value(file, "motion"));
   }

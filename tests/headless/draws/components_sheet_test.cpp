@@ -57,7 +57,7 @@ TEST(MeaningSheet, DrawsAColumnOfBarsForEachComponent) {
     metrics.all.push_back({std::string(u) + ".moves.Head", 0.1, "m"});
   }
   const std::string svg = picture_of(metrics, {}).svg("");
-  for (const char* words : {"u2", "arms", "-0.12", "40.0 % of the variance", "no steady beat", "Head"})
+  for (const char* words : {"u2", "arms", "-12", "mostly arms", "40.0 % of the variance", "no steady beat", "Head"})
     EXPECT_THAT(svg, HasSubstr(words));
 }
 

@@ -1,0 +1,201 @@
+// Faces [Cao §7.1]: clips of brows and of a jaw, joined, separate into components that move the one or the
+// other; those are scaled, shifted, repeated, mixed and borrowed, and carried to a mesh.
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/components/component_meaning.h"
+#include "nodes/components/ica.h"
+#include "nodes/motion/metrics.h"
+#include "tests/main_job/exported.h"
+#include "tests/nodes/points/face_mask.h"
+
+namespace kinegraph {
+namespace {
+
+const char* const brow_labels = "*eyebrow*,Eyebrow_Center";
+const char* const jaw_labels = "Chin*,Mouth_Down*";
+
+bool is_brow(const std::string& label) {
+  return label.find("eyebrow") != std::string::npos || label == "Eyebrow_Center";
+}
+bool is_jaw(const std::string& label) {
+  return label.starts_with("Chin") || label.starts_with("Mouth_Down");
+}
+
+std::shared_ptr<const Points> clip(const char* path) {
+  FileStore files;
+  Alone work;
+  const MotionFile file = read_motion_file(mocap(path), {}, files, work);
+  return std::make_shared<const Points>(*file.points());
+}
+std::shared_ptr<const Points> brows() {
+  return clip("points/face_eyebrows.trc");
+}
+std::shared_ptr<const Points> jaw() {
+  return clip("points/face_jaw.trc");
+}
+
+// How much the components that rebuild the brows are those that rebuild the jaw: of each region the parts
+// that the components take off its error, as shares; then what both profiles have in common. 0 = apart, 1 =
+// the same.
+double overlap(const Components& components, std::size_t emotion) {
+  Alone work;
+  MeaningParams params;
+  params.pairs = {{0, 1}};
+  params.emotion = {{static_cast<int>(emotion) + 1, ""}};
+  params.regions = {{"brows", brow_labels}, {"jaw", jaw_labels}};
+  const auto d = component_meaning(components, params, work).d_region;
+  double sums[2] = {};
+  for (int region = 0; region < 2; ++region)
+    for (double value : d[static_cast<std::size_t>(region)]) sums[region] += std::max(0.0, -value);
+  double common = 0;
+  for (std::size_t i = 0; i < components.count(); ++i)
+    common += std::min(std::max(0.0, -d[0][i]) / sums[0], std::max(0.0, -d[1][i]) / sums[1]);
+  return common;
+}
+
+TEST(Faces, SeparateBetterIntoIndependentThanIntoPrincipalComponents) {
+  KINEGRAPH_NEEDS_MOCAP();
+  Alone work;
+  const std::vector<std::shared_ptr<const Points>> clips = {brows(), jaw()};
+  const std::vector<bool> all(clips[0]->labels.size(), true);
+  for (int k : {2, 3, 4, 5}) {
+    std::vector<double> independent, principal;
+    for (const bool rotate : {true, false}) {
+      IcaParams params;
+      params.components = k;
+      params.rotate = rotate;
+      const Components parts =
+          components_of_points(space_of_points(clips, Stabilise::none, all), clips, params, work);
+      for (std::size_t emotion = 0; emotion < parts.count(); ++emotion)
+        (rotate ? independent : principal).push_back(overlap(parts, emotion));
+    }
+    // Whichever component is taken for the emotion: the best of one against the best of the other, and on.
+    std::sort(independent.begin(), independent.end());
+    std::sort(principal.begin(), principal.end());
+    for (std::size_t i = 0; i < independent.size(); ++i) {
+      EXPECT_LT(independent[i], 0.95 * principal[i]) << k << " components, emotion " << i;
+      testing::Test::RecordProperty(fmt::format("k{}_{}", k, i),
+                                    fmt::format("{:.3f} {:.3f}", independent[i], principal[i]));
+    }
+  }
+}
+
+// Root mean square over frames and the chosen markers of how far two clips are apart, metres.
+double apart(const Points& a, const Points& b, bool (*chosen)(const std::string&)) {
+  double sum = 0, count = 0;
+  for (int i = 0; i < static_cast<int>(a.labels.size()); ++i) {
+    if (!chosen(a.labels[static_cast<std::size_t>(i)])) continue;
+    for (std::size_t t = 0; t < a.frames; ++t) {
+      const double d = norm(a.track(i)[t] - b.track(i)[t]);
+      sum += d * d, count += 1;
+    }
+  }
+  return std::sqrt(sum / count);
+}
+
+TEST(Faces, MoveByTheComponentsOfBrowsAndOfJaw) {
+  KINEGRAPH_NEEDS_MOCAP();
+  const std::string mask_file = testing::TempDir() + fmt::format("kinegraph_mask_{}.glb", ::getpid());
+  {
+    Alone work;
+    const auto mask = std::make_shared<const Character>(face_mask(*brows()));
+    std::ofstream(mask_file, std::ios::binary)
+        << encode_motion_file(mask_file, "auto", {{"character", mask}}, {}, work).bytes;
+  }
+  const Exported files("tests/component_job/face.kg.json", "face", fmt::format("--var 'mask={}'", mask_file));
+  std::filesystem::remove(mask_file);
+  ASSERT_TRUE(files.ran());
+
+  // Which component moves the brows, which the jaw: the graph edits u2 and u1 for them.
+  const auto meaning = files.read<Metrics>("meaning.json");
+  std::size_t brow = 0, chin = 0;
+  const auto gain = [&](std::size_t i, const char* region) {
+    return -*meaning->find(fmt::format("u{}.d_region.{}", i, region))->value;
+  };
+  for (std::size_t i = 1; i <= 3; ++i) {
+    if (!brow || gain(i, "brows") > gain(brow, "brows")) brow = i;
+    if (!chin || gain(i, "jaw") > gain(chin, "jaw")) chin = i;
+  }
+  ASSERT_EQ(brow, 2u);
+  ASSERT_EQ(chin, 1u);
+  EXPECT_GT(gain(brow, "brows"), 10 * gain(brow, "jaw"));
+  EXPECT_GT(gain(chin, "jaw"), 10 * gain(chin, "brows"));
+
+  // Scaled: brows twice as far from their mean, the jaw where it was.
+  const auto parts = files.read<Components>("components.json");
+  const Points first = *brows(), second = *jaw();
+  const auto raised = files.read<Points>("raised.trc");
+  const double brows_moved = apart(*raised, first, is_brow), jaw_moved = apart(*raised, first, is_jaw);
+  EXPECT_GT(brows_moved, 0.002);
+  EXPECT_LT(jaw_moved, 0.25 * brows_moved);
+  // By the formula: rigid motion apart, each brow marker goes |P A e_2 u_2| farther.
+  double expected = 0, count = 0;
+  for (std::size_t i = 0; i < parts->space.labels.size(); ++i) {
+    if (!is_brow(parts->space.labels[i])) continue;
+    for (std::size_t t = 0; t < first.frames; ++t) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double d = parts->mixing(3 * i + c, 1) * parts->signals(1, t);
+        expected += d * d;
+      }
+      count += 1;
+    }
+  }
+  EXPECT_NEAR(brows_moved, std::sqrt(expected / count), 1e-6);
+
+  // Shifted by two standard deviations: the mouth is open all the time.
+  const auto agape = files.read<Points>("agape.trc");
+  EXPECT_GT(apart(*agape, first, is_jaw), 0.01);
+  EXPECT_LT(apart(*agape, first, is_brow), 0.1 * apart(*agape, first, is_jaw));
+  int chin_label =
+      static_cast<int>(std::find(first.labels.begin(), first.labels.end(), "Chin") - first.labels.begin());
+  for (std::size_t t = 0; t < first.frames; t += 100)
+    EXPECT_LT(agape->track(chin_label)[t].y, first.track(chin_label)[t].y - 0.008) << t;
+
+  // Repeated: the jaw of frames 250 to 550 once more in 900 to 1200, nothing else.
+  const auto again = files.read<Points>("again.trc");
+  const auto down = [&](const Points& clip, std::size_t from, std::size_t to) {
+    double lowest = 1e9;
+    for (std::size_t t = from; t < to; ++t) lowest = std::min(lowest, clip.track(chin_label)[t].y);
+    return lowest;
+  };
+  EXPECT_LT(down(*again, 900, 1200), down(second, 900, 1200) - 0.01);
+  for (std::size_t t = 0; t < 880; ++t)
+    ASSERT_LT(norm(again->track(chin_label)[t] - second.track(chin_label)[t]), 1e-4) << t;
+
+  // Mixed by percentages: half of the jaw goes, half as much again of the brows comes.
+  EXPECT_NEAR(apart(*files.read<Points>("mixed.trc"), first, is_brow), 0.5 * brows_moved, 0.1 * brows_moved);
+
+  // Borrowed: the jaw's clip gets the brows of the other, and keeps its jaw.
+  const auto borrowed = files.read<Points>("borrowed.trc");
+  EXPECT_GT(apart(*borrowed, second, is_brow), 0.4 * brows_moved);
+  EXPECT_LT(apart(*borrowed, second, is_jaw), 0.25 * apart(*borrowed, second, is_brow));
+
+  // On the mesh: at the markers' vertices it goes where the markers go.
+  const auto mesh = files.read<Character>("face.glb");
+  ASSERT_EQ(mesh->parts.size(), 1u);
+  ASSERT_EQ(mesh->parts[0].morphs.size(), 3 * first.labels.size());
+  const auto vertices = [&](std::size_t frame) {
+    std::vector<double> weights(mesh->parts[0].morphs.size());
+    for (const MorphTrack& track : mesh->morph_tracks)
+      weights[static_cast<std::size_t>(track.target)] = track.weights[frame];
+    return posed_vertices(*mesh, mesh->parts[0], rest_pose_of(*mesh->skeleton), weights);
+  };
+  const auto still = vertices(0);
+  double farthest = 0;
+  for (std::size_t t : {200u, 500u, 700u, 1100u}) {
+    const auto now = vertices(t);
+    for (int m = 0; m < static_cast<int>(first.labels.size()); ++m) {
+      const Vec3 marker = borrowed->track(m)[0];
+      std::size_t vertex = 0;
+      for (std::size_t v = 1; v < still.size(); ++v)
+        if (norm(still[v] - marker) < norm(still[vertex] - marker)) vertex = v;
+      const Vec3 wanted = borrowed->track(m)[t] - marker, is = now[vertex] - still[vertex];
+      farthest = std::max(farthest, norm(is - wanted));
+    }
+  }
+  EXPECT_LT(farthest, 0.004) << "the mask's vertices lie up to some mm beside the markers";
+}
+
+}  // namespace
+}  // namespace kinegraph
