@@ -47,7 +47,7 @@ std::optional<Contacts> found_contacts(const Motion& motion, Work& work) {
 NodeType rubber_joints_node() {
   NodeType type;
   type.name = "RubberJoints";
-  type.code_version = 2;
+  type.code_version = 3;
   type.category = "cartoon";
   type.help =
       "Turns limbs into rubber: cuts links into sub-joints, bends them along curves and lets them follow "
