@@ -94,7 +94,7 @@ const Mistake mistakes[] = {
     {"BadRule", with("Check", R"("rules": ["skate << 1"])", R"("metrics": "m.metrics")"), 4,
      "error: bad-rule: n.rules", "NAME"},
     {"FieldMissing", with("DetectContacts", R"("edits": [{"part": "ball", "range": [0, 3]}])", moved), 4,
-     "error: missing-key: n.edits[0]", "text"},
+     "error: missing-key: n.edits[0]", "string"},
     {"FieldUnknown", with("DetectContacts", R"("edits": [{"foot": "left", "rnage": [0, 3]}])", moved), 4,
      "error: unknown-key: n.edits[0]", "range"},
     {"UnitThatIsNone", exported(R"("file": "a.bvh", "unit": "feet")"), 4, "error: ", ""},
@@ -179,7 +179,7 @@ TEST_P(BrokenGraphs, AreToldAndWriteNothing) {
     const std::string line = validated.out.substr(start, end - start);
     const bool here = line.starts_with("g.kg.json:" + std::to_string(mistake.line) + ":") &&
                       line.find(mistake.told) != line.npos;
-    const std::size_t hint = line.rfind('(');
+    const std::size_t hint = line.find('(');
     found |=
         here && (*mistake.hint == 0 || (hint != line.npos && line.find(mistake.hint, hint) != line.npos));
     start = end + 1;
