@@ -63,6 +63,8 @@ std::string aside_name(const std::string& path) {
          std::to_string(salt) + std::string(aside_ending);
 }
 
+}  // namespace
+
 std::error_code make_folders(const std::string& path) {
   for (std::size_t slash = path.find('/', 1);; slash = path.find('/', slash + 1)) {
     const std::string part = path.substr(0, slash);
@@ -74,8 +76,6 @@ std::error_code make_folders(const std::string& path) {
     if (slash == std::string::npos) return {};
   }
 }
-
-}  // namespace
 
 std::string entry_path(const std::string& folder, const Key& key) {
   const std::string name = to_text(key);

@@ -12,6 +12,7 @@
 
 namespace kinegraph {
 
+std::error_code make_folders(const std::string& path);  // all that are missing
 std::string entry_path(const std::string& folder, const Key& key);
 
 struct CacheFile {

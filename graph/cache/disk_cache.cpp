@@ -130,6 +130,10 @@ void DiskCache::put(const Key& key, const Cached& entry, const GiveUp& give_up) 
   }
 }
 
+std::unique_ptr<Claim> DiskCache::claim(const Key& node_key, const GiveUp& give_up) {
+  return Claim::wait_for(state_->folder, node_key, give_up);
+}
+
 Diagnostics DiskCache::take_warnings() {
   std::lock_guard lock(state_->mutex);
   return std::exchange(state_->warnings, {});

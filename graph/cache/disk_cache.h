@@ -4,7 +4,7 @@
 // FOLDER/ab/abcdef….kgv holds one output: magic, format version, a checksum of all that follows, the key
 // itself, the value's type, the notes, and the encoded value compressed with zstd. A use renews the file's
 // time, so that the oldest use goes out first. FOLDER/ab/….tmp is being written, or was left by a killed
-// writer.
+// writer. FOLDER/claims is empty and carries locks (see claim.h).
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "graph/cache/claim.h"
 #include "graph/cache/memory_cache.h"
 #include "graph/registry.h"
 
@@ -30,6 +31,8 @@ class DiskCache {
   std::optional<Cached> find(const Key& key, const GiveUp& give_up = {});  // damaged or unreadable: a miss
   bool contains(const Key& key) const;  // by existence only, for --dry-run and explain
   void put(const Key& key, const Cached& entry, const GiveUp& give_up = {});
+  // Before a node's outputs are computed: waits until nobody else is at work on them. They may be there then.
+  std::unique_ptr<Claim> claim(const Key& node_key, const GiveUp& give_up);
   Diagnostics take_warnings();  // one of each code since the last call
   const std::string& folder() const;
 

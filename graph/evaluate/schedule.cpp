@@ -357,9 +357,35 @@ void Schedule::compute_effect(int node, std::map<std::string, std::vector<ValueP
   finish(node, NodeState::done);
 }
 
+// What another process made while this one waited for its turn.
+bool Schedule::made_elsewhere(int node, const Key& key, const std::set<std::string>& wanted) {
+  for (const auto& port : wanted)
+    if (!world_.disk->contains(output_key(key, port))) return false;
+  try {
+    for (const auto& port : wanted)
+      if (!find_one(node, key, port)) return false;
+  } catch (const Failure&) {
+    return false;  // no memory for it: computing it will say so
+  }
+  std::lock_guard lock(mutex_);
+  auto& twins = twins_[key];
+  twins.running = false;
+  if (twins.left > 1) {
+    for (const auto& port : wanted) twins.outputs[port] = at(node).outputs.at(port);
+    twins.notes = at(node).notes;
+  }
+  for (int waiting : std::exchange(twins.waiting, {})) spawn(&Schedule::compute, waiting);
+  return true;
+}
+
 void Schedule::compute_claimed(int node, const Key& key, std::map<std::string, std::vector<ValuePtr>> inputs,
                                std::set<std::string> wanted) {
   using End = Attempt::End;
+  std::unique_ptr<Claim> claim;  // until what was made is on the disk
+  if (world_.disk) {
+    claim = world_.disk->claim(key, [this] { return halt_.asked(); });
+    if (made_elsewhere(node, key, wanted)) return complete(node);
+  }
   int finished_before = 0;
   {
     std::lock_guard lock(mutex_);
@@ -395,6 +421,7 @@ void Schedule::compute_claimed(int node, const Key& key, std::map<std::string, s
   }
   if (later) return;
   if (restart) {
+    claim.reset();
     rekeyed_ = true;
     keys_.make(node, true);
     {

@@ -87,6 +87,7 @@ class Schedule {
   Attempt attempt(int node, std::map<std::string, std::vector<ValuePtr>> inputs,
                   const std::set<std::string>& wanted);
   bool find_cached(int node);
+  bool made_elsewhere(int node, const Key& key, const std::set<std::string>& wanted);
   bool find_one(int node, const Key& node_key, const std::string& port);
   bool try_later(Step step, int node, const Diagnostic& failure, int finished_before);
   // Nothing where the node can't be computed and has been finished.

@@ -87,7 +87,7 @@ TEST(RandomGraphs, AreValidButForWhatWasLeftOpen) {
 
 TEST(Graphs, OfTheRepositoryLoadAndSaveAsTheyAre) {
   int count = 0;
-  for (const char* folder : {"graphs", "tests/main_job"})
+  for (const char* folder : {"graphs", "tests/main_job", "tests/farm"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(
              std::filesystem::path(KINEGRAPH_SOURCE_DIR) / folder)) {
       if (!entry.path().string().ends_with(".kg.json")) continue;
