@@ -310,12 +310,7 @@ class Batch {
         path = fs::path(path)
                    .replace_extension(fmt::format(".{}{}", shard_.index, fs::path(path).extension().string()))
                    .string();
-      try {
-        write_file_atomically(absolute_path(path), text);
-      } catch (const Failure& failure) {
-        program_.terminal.say(failure.diagnostic());
-        code = exit_code::cannot_write;
-      }
+      code = exit_code::graver(code, write_report(program_, path, text));
     };
     Json::Object items;
     std::string suites;
@@ -396,13 +391,7 @@ int merge_batch_reports(const Program& program, const std::vector<std::string>& 
     }
   }
   merged["items"] = std::move(items);
-  try {
-    write_file_atomically(absolute_path(to), indented(Json(std::move(merged))));
-  } catch (const Failure& failure) {
-    program.terminal.say(failure.diagnostic());
-    return exit_code::cannot_write;
-  }
-  return exit_code::done;
+  return write_report(program, to, indented(Json(std::move(merged))));
 }
 
 }  // namespace

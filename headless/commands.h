@@ -32,6 +32,7 @@ int diff_command(const Program& program, const DiffArguments& arguments);
 // Three-way, as git's merge driver asks for it.
 struct MergeArguments {
   std::string base, ours, theirs, out;
+  std::string path;  // where the graph stands, as git's files for a merge have made-up names; "" = at `out`
 };
 int merge_command(const Program& program, const MergeArguments& arguments);
 

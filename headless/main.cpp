@@ -13,11 +13,15 @@ namespace {
 
 using namespace kinegraph;
 
+void add_variables(CLI::App& app, RunArguments& arguments) {
+  app.add_option("--var", arguments.vars, "Set a variable")->type_name("NAME=VALUE")->allow_extra_args(false);
+}
+
 void add_inputs(CLI::App& app, RunArguments& arguments) {
   app.add_option("--set", arguments.sets, "Set a parameter, or a published one by its name")
       ->type_name("NODE.PARAM=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--var", arguments.vars, "Set a variable")->type_name("NAME=VALUE")->allow_extra_args(false);
+  add_variables(app, arguments);
 }
 
 void add_cache(CLI::App& app, RunArguments& arguments) {
@@ -142,6 +146,8 @@ int chosen(const Program& program, int argc, char** argv) {
     command.add_option("-o", merging.out, "Where to; on a conflict with git's markers")
         ->required()
         ->type_name("OUT");
+    command.add_option("--path", merging.path, "Where the graph stands (git's %P), for the graphs it uses")
+        ->type_name("FILE");
     command.callback([&] { act = [&] { return merge_command(program, merging); }; });
   }
   std::string graph, node;
@@ -264,7 +270,7 @@ int chosen(const Program& program, int argc, char** argv) {
         *app.add_subcommand("pack", "The graph, nested graphs and clips in one folder, to hand on");
     add_graph(command, run.graph);
     command.add_option("-o", folder, "The folder")->required()->type_name("DIR");
-    add_inputs(command, run);
+    add_variables(command, run);
     command.callback([&] { act = [&] { return pack_command(program, run, folder); }; });
   }
   CacheArguments cache;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "graph/file/write.h"
 #include "headless/commands.h"
 #include "headless/exit_code.h"
@@ -16,8 +18,18 @@ int merge_command(const Program& program, const MergeArguments& arguments) {
   bool good = true;
   for (const Opened* side : {&base, &ours, &theirs}) good = usable_version(program, *side) && good;
   if (!good) return exit_code::invalid;
-  const Merge merged =
-      merge(std::move(base.document), std::move(ours.document), std::move(theirs.document), program.registry);
+  FileStore files(std::vector<std::string>{});
+  const std::string path = absolute_path(arguments.path.empty() ? arguments.out : arguments.path);
+  const auto open_inside = [&](Document& document) {
+    Opened place;
+    place.path = path;
+    place.folder = std::filesystem::path(path).parent_path().string();
+    place.document = std::move(document);
+    open_graphs_inside(place, program.registry, {}, {}, files);
+    document = std::move(place.document);
+  };
+  const Merge merged = merge(std::move(base.document), std::move(ours.document), std::move(theirs.document),
+                             program.registry, "ours", "theirs", open_inside);
   for (const MergeConflict& conflict : merged.conflicts)
     program.terminal.message(
         fmt::format("{}: {}\n", program.terminal.tinted_message("conflict", Tint::red), conflict.what));

@@ -198,23 +198,30 @@ std::string junit_of(const Outcome& outcome, const Program& program, const Opene
   return text + "  </testsuite>\n</testsuites>\n";
 }
 
+int write_report(const Program& program, const std::string& path, const std::string& text) {
+  if (path.empty()) return exit_code::done;
+  const std::string whole = absolute_path(path);
+  try {
+    std::error_code told_by_writing;
+    std::filesystem::create_directories(std::filesystem::path(whole).parent_path(), told_by_writing);
+    write_file_atomically(whole, text);
+    return exit_code::done;
+  } catch (const Failure& failure) {
+    program.terminal.say(failure.diagnostic());
+    return exit_code::cannot_write;
+  }
+}
+
 int write_reports(const Outcome& outcome, const Program& program, const RunArguments& arguments,
                   const Opened& opened, const std::string& out) {
-  int code = 0;
-  auto write = [&](const std::string& path, const std::string& text) {
-    if (path.empty()) return;
-    try {
-      write_file_atomically(absolute_path(path), text);
-    } catch (const Failure& failure) {
-      program.terminal.say(failure.diagnostic());
-      code = exit_code::cannot_write;
-    }
-  };
-  write(arguments.junit, arguments.junit.empty() ? "" : junit_of(outcome, program, opened));
+  int code = arguments.junit.empty()
+                 ? exit_code::done
+                 : write_report(program, arguments.junit, junit_of(outcome, program, opened));
   if (!arguments.report.empty()) {
     Outcome told = outcome;
     told.exit = exit_code::graver(outcome.exit, code);
-    write(arguments.report, indented(report_of(told, program, opened, out)));
+    code = exit_code::graver(
+        code, write_report(program, arguments.report, indented(report_of(told, program, opened, out))));
   }
   return code;
 }

@@ -24,6 +24,9 @@ Json report_of(const Outcome& outcome, const Program& program, const Opened& ope
 // A suite for the graph; a case for each Export and each rule.
 std::string junit_of(const Outcome& outcome, const Program& program, const Opened& opened);
 
+// Writes a report where it was asked for, making missing folders; "" = nowhere. Tells and returns
+// exit_code::cannot_write when it can't be written, else 0.
+int write_report(const Program& program, const std::string& path, const std::string& text);
 // Writes --report and --junit where they were asked for; tells and returns exit_code::cannot_write when one
 // can't be written, else 0.
 int write_reports(const Outcome& outcome, const Program& program, const RunArguments& arguments,

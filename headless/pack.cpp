@@ -5,11 +5,14 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
-#include "graph/file/read.h"
+#include "graph/file/parse_json.h"
 #include "graph/file/write.h"
 #include "graph/file/write_atomically.h"
 #include "graph/nested.h"
+#include "graph/variables.h"
 #include "headless/commands.h"
 #include "headless/exit_code.h"
 
@@ -24,47 +27,63 @@ using Kind = ParamType::Kind;
 class Packing {
  public:
   Packing(const Program& program, Session& session, std::string folder)
-      : program_(program), session_(session), folder_(std::move(folder)) {}
+      : program_(program), session_(session), folder_(std::move(folder)) {
+    variables_.given = parsed_variables(session.arguments().vars);
+  }
 
   int go() {
-    // Companions keep their place beside the file they belong to, which they name by themselves.
     std::string file;
     for (const auto& use : session_.files_read()) {
       if (!use.companion) file = use.path;
-      if (use.companion) companions_[file].insert(use.path);
+      if (use.companion && use.path != file) companions_[file].insert(use.path);
     }
-    place_graph(session_.opened().path, session_.document());
-    for (const auto& [path, text] : graphs_) write_file_atomically(path, text);
-    for (const auto& [from, to] : copies_) {
+    Document whole = session_.document();
+    for (const auto& [name, value] : variables_.given) whole.variables[name] = typed(value);
+    place_graph(session_.opened().path, whole, "");
+    for (const auto& [path, text] : graphs_) {
+      fs::create_directories(fs::path(path).parent_path());
+      write_file_atomically(path, text);
+      tell(path);
+    }
+    std::vector<std::pair<std::string, std::string>> all(copies_.begin(), copies_.end());
+    all.insert(all.end(), beside_.begin(), beside_.end());
+    for (const auto& [from, to] : all) {
       fs::create_directories(fs::path(to).parent_path());
       write_file_atomically(to, *session_.files().read(from));
+      tell(to);
     }
-    for (const auto& [from, to] : places_)
-      program_.terminal.result(
-          fmt::format("packed  {}\n", fs::path(to).lexically_relative(folder_).generic_string()));
     return code_;
   }
 
  private:
-  // A place of its own below the folder, under the file's name.
-  std::string place(const std::string& path, const char* below) {
-    if (const auto known = places_.find(path); known != places_.end()) return known->second;
-    const fs::path name = fs::path(path).filename();
-    std::string text = name.string(), stem = text.substr(0, text.find('.')),
-                ending = text.substr(stem.size());
-    fs::path to = fs::path(folder_) / below / text;
-    for (int n = 2; !taken_.insert(to.string()).second; ++n)
-      to = fs::path(folder_) / below / fmt::format("{}-{}{}", stem, n, ending);
-    return places_[path] = to.string();
+  void tell(const std::string& path) {
+    program_.terminal.result(
+        fmt::format("packed  {}\n", fs::path(path).lexically_relative(folder_).generic_string()));
   }
 
-  std::string place_graph(const std::string& path, const Document& document) {
-    if (const auto known = places_.find(path); known != places_.end()) return known->second;
-    const bool outermost = places_.empty();
-    const std::string to = place(path, outermost ? "" : "graphs");
-    fs::create_directories(fs::path(to).parent_path());
+  // What was typed after --var as the JSON that it looks like, as the parameter that uses it can't be asked
+  // here.
+  static Json typed(const Json& given) {
+    Diagnostics problems;
+    Json value = given.is_string() ? parse_json(given.string(), "", problems) : given;
+    return has_error(problems) || value.is_array() || value.is_object() ? given : value;
+  }
+
+  // A name of its own below the folder: NAME, NAME-2, …
+  std::string fresh_place(const fs::path& below, const std::string& name) {
+    const std::string stem = name.substr(0, name.find('.')), ending = name.substr(stem.size());
+    std::string to = (fs::path(folder_) / below / name).string();
+    for (int n = 2; !taken_.insert(to).second; ++n)
+      to = (fs::path(folder_) / below / fmt::format("{}-{}{}", stem, n, ending)).string();
+    return to;
+  }
+
+  // Its graphs and clips are placed with it. A file that stands for different things at two places, by its
+  // variables, is there twice.
+  std::string place_graph(const std::string& path, const Document& document, const std::string& below) {
+    const fs::path from = fs::path(path).parent_path(), to = fs::path(folder_) / below;
     Document packed = document;
-    const fs::path from_folder = fs::path(path).parent_path(), to_folder = fs::path(to).parent_path();
+    variables_.files.push_back(&document.variables);
     for (auto& [name, node] : packed.nodes) {
       const NodeType* type = known_type(program_.registry, node);
       if (!type) continue;
@@ -72,11 +91,40 @@ class Packing {
         const Param* param = type->find_param(key);
         if (!param) continue;
         const bool graph = type->role == Role::graph && key == "file";
-        relink(*param, value, from_folder, to_folder, graph ? &node : nullptr);
+        relink(*param, value, from, to, graph ? &node : nullptr);
       }
     }
-    graphs_[to] = write_document(packed, program_.registry);
-    return to;
+    variables_.files.pop_back();
+    std::string text = write_document(packed, program_.registry);
+    const auto known = placed_graphs_.find({path, text});
+    if (known != placed_graphs_.end()) return known->second;
+    const std::string place = fresh_place(below, fs::path(path).filename().string());
+    placed_graphs_[{path, text}] = place;
+    graphs_[place] = std::move(text);
+    return place;
+  }
+
+  // A file alone stands in clips/; one with companions in a folder of its own there, with all of them where
+  // they are to one another, as it finds them by their paths from itself.
+  std::string place_clip(const std::string& path) {
+    if (const auto known = copies_.find(path); known != copies_.end()) return known->second;
+    const auto companions = companions_.find(path);
+    if (companions == companions_.end())
+      return copies_[path] = fresh_place("clips", fs::path(path).filename().string());
+    fs::path common = fs::path(path).parent_path();
+    for (const std::string& companion : companions->second)
+      while (!below(common, companion) && common != common.parent_path()) common = common.parent_path();
+    const fs::path group = fresh_place("clips", fs::path(path).stem().string());
+    const auto placed = [&](const std::string& file) {
+      return (group / fs::path(file).lexically_relative(common)).string();
+    };
+    for (const std::string& companion : companions->second)
+      if (session_.files().exists(companion)) beside_.emplace_back(companion, placed(companion));
+    return copies_[path] = placed(path);
+  }
+  static bool below(const fs::path& folder, const fs::path& file) {
+    const std::string relative = file.lexically_relative(folder).generic_string();
+    return !relative.empty() && !relative.starts_with("..");
   }
 
   void relink(const ParamType& type, Json& value, const fs::path& from, const fs::path& to,
@@ -87,30 +135,20 @@ class Packing {
       for (const ParamType& field : type.parts)
         if (value.find(field.name)) relink(field, value.object()[field.name], from, to, nullptr);
     if (type.kind != Kind::open_file || !value.is_string() || value.string().empty()) return;
-    if (value.string().find("${") != std::string::npos) {
-      program_.terminal.say(warning(
-          "variable-path",
-          fmt::format("{} holds a variable: its file is left where it is", in_quotes(value.string()))));
-      return;
-    }
-    const std::string path = (from / value.string()).lexically_normal().string();
+    Diagnostics problems;  // there are none: the graph is valid
+    const Json meant = substituted(value, type, variables_, type.name, problems);
+    if (has_error(problems) || !meant.is_string() || meant.string().empty()) return;
+    const std::string path = (from / meant.string()).lexically_normal().string();
     std::string there;
     if (graph && graph->nested && graph->nested->document) {
-      there = place_graph(path, *graph->nested->document);
+      there = place_graph(path, *graph->nested->document, "graphs");
     } else if (!session_.files().exists(path)) {
       program_.terminal.say(
-          error("missing-file", fmt::format("there is no file {}", in_quotes(value.string()))));
+          error("missing-file", fmt::format("there is no file {}", in_quotes(meant.string()))));
       code_ = exit_code::failed;
       return;
     } else {
-      there = place(path, "clips");
-      copies_[path] = there;
-      const auto beside = companions_.find(path);
-      if (beside != companions_.end())
-        for (const std::string& companion : beside->second) {
-          const fs::path relative = fs::path(companion).lexically_relative(fs::path(path).parent_path());
-          copies_[companion] = (fs::path(there).parent_path() / relative.filename()).string();
-        }
+      there = place_clip(path);
     }
     value = Json(fs::path(there).lexically_relative(to).generic_string());
   }
@@ -118,11 +156,13 @@ class Packing {
   const Program& program_;
   Session& session_;
   const std::string folder_;
+  Variables variables_;
   std::map<std::string, std::set<std::string>> companions_;
-  std::map<std::string, std::string> places_;  // from -> to
   std::set<std::string> taken_;
-  std::map<std::string, std::string> graphs_;  // to -> text
-  std::map<std::string, std::string> copies_;  // from -> to
+  std::map<std::pair<std::string, std::string>, std::string> placed_graphs_;  // source and packed text -> to
+  std::map<std::string, std::string> graphs_;                                 // to -> text
+  std::map<std::string, std::string> copies_;                                 // from -> to
+  std::vector<std::pair<std::string, std::string>> beside_;                   // companions, likewise
   int code_ = exit_code::done;
 };
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "graph/file/write.h"
 #include "headless/exit_code.h"
 #include "headless/html_report.h"
 #include "headless/interruption.h"
@@ -74,12 +73,7 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
   }
   if (!arguments.html.empty()) {
     if (page.empty()) page = html_of(outcome, program, session, {});
-    try {
-      write_file_atomically(absolute_path(arguments.html), page);
-    } catch (const Failure& failure) {
-      program.terminal.say(failure.diagnostic());
-      outcome.exit = graver(outcome.exit, exit_code::cannot_write);
-    }
+    outcome.exit = graver(outcome.exit, write_report(program, arguments.html, page));
   }
   int reports = write_reports(outcome, program, arguments, session.opened(), session.options().out);
   return graver(outcome.exit, reports);

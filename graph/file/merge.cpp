@@ -11,6 +11,7 @@
 #include "graph/file/renames.h"
 #include "graph/file/units.h"
 #include "graph/file/write.h"
+#include "graph/nested.h"
 #include "graph/validate.h"
 
 namespace kinegraph {
@@ -31,8 +32,11 @@ std::string shown(const Value& value) {
 
 class Merger {
  public:
-  Merger(Document base, Document ours, Document theirs, const Registry& registry) : registry_(registry) {
+  Merger(Document base, Document ours, Document theirs, const Registry& registry,
+         const OpenInside& open_inside)
+      : registry_(registry), open_inside_(open_inside) {
     align(std::move(base), std::move(ours), std::move(theirs));
+    for (Document* side : {&ours_, &theirs_}) open_inside_of(*side);
   }
 
   Merge run(const std::string& our_label, const std::string& their_label) {
@@ -185,7 +189,7 @@ class Merger {
     const Param* param = nullptr;
     if (unit.kind == Kind::node_param) {
       const Node* node = find(ours_, unit.name);
-      const NodeType* type = node && !node->missing ? registry_.find(node->type) : nullptr;
+      const NodeType* type = node ? known_type(registry_, *node) : nullptr;
       param = type ? type->find_param(unit.key) : nullptr;
       if (!param) return {};
     }
@@ -242,8 +246,18 @@ class Merger {
     if (!gone) both(unit, here == was ? there : here);
   }
 
+  void open_inside_of(Document& document) const {
+    const auto is_graph = [&](const auto& entry) {
+      const NodeType* type = entry.second.missing ? nullptr : registry_.find(entry.second.type);
+      return type && type->role == Role::graph;
+    };
+    if (open_inside_ && std::any_of(document.nodes.begin(), document.nodes.end(), is_graph))
+      open_inside_(document);
+  }
+
   // What is wrong with the result and was on neither side.
   void check_result() {
+    open_inside_of(our_result_);
     std::set<std::string> known;
     const auto text = [](const Diagnostic& problem) {
       return problem.code + '\n' + problem.node + '\n' + problem.port + '\n' + problem.param + '\n' +
@@ -300,6 +314,7 @@ class Merger {
   }
 
   const Registry& registry_;
+  const OpenInside& open_inside_;
   Document base_, ours_, theirs_;       // under one set of names
   Document our_result_, their_result_;  // the merge, with ours or theirs where they conflict
   std::vector<MergeConflict> conflicts_;
@@ -308,8 +323,9 @@ class Merger {
 }  // namespace
 
 Merge merge(Document base, Document ours, Document theirs, const Registry& registry,
-            const std::string& our_label, const std::string& their_label) {
-  return Merger(std::move(base), std::move(ours), std::move(theirs), registry).run(our_label, their_label);
+            const std::string& our_label, const std::string& their_label, const OpenInside& open_inside) {
+  return Merger(std::move(base), std::move(ours), std::move(theirs), registry, open_inside)
+      .run(our_label, their_label);
 }
 
 }  // namespace kinegraph

@@ -67,9 +67,11 @@ function heights(columns, near, tall, thin) {
 const type_tints = { Motion: "#2b7bd3", Points: "#1d9a78", Warp: "#c4912a", Stats: "#7a5cc2", Components: "#c8374f", Contacts: "#4b9fae", Character: "#a0648c", Metrics: "#7d8894" };
 
 function draw_graph() {
-  const names = Object.keys(report.nodes);
+  // What nothing is linked to and nobody needed (samples inside nested graphs, say) is only named.
+  const known = new Set(Object.keys(report.nodes)), links = data.links.filter(link => known.has(link[0]) && known.has(link[2]));
+  const linked = new Set(links.flatMap(link => [link[0], link[2]])), names = [...known].filter(name => linked.has(name) || report.nodes[name].state !== "skipped");
+  const others = [...known].filter(name => !names.includes(name));
   if (!names.length) return;
-  const known = new Set(names), links = data.links.filter(link => known.has(link[0]) && known.has(link[2]));
   const { columns, near, ways } = layers(names, links);
   const W = 150, H = 50, X = W + 34, y = heights(columns, near, H + 16, 14), x = {};
   columns.forEach((column, c) => column.forEach(id => x[id] = c * X));
@@ -125,6 +127,7 @@ function draw_graph() {
   view.style.cssText = "padding:16px;max-height:640px";
   for (const type of types) { const key = make("span", "swatch"); key.style.background = type_tints[type] || "var(--faint)"; legend.append(key, type + "\u2003"); }
   const bar = make("div", "bar", legend);
+  if (others.length) legend.append("not needed: " + others.join(", "));
   card(view, bar, detail);
   // As large as it fits, but never so small that it can't be read.
   redraws.push(() => { const scale = Math.min(1, Math.max(0.8, (view.clientWidth - 34) / width)); picture.setAttribute("width", width * scale); picture.setAttribute("height", height * scale); });

@@ -28,7 +28,7 @@ class Git : public ProgramTest {
     git("init -q -b main . && git config user.name T && git config user.email t@example.org && "
         "git config merge.kinegraph.name 'Kinegraph graphs' && "
         "git config merge.kinegraph.driver '" KINEGRAPH_BIN_DIR
-        "/kinegraph merge %O %A %B -o %A' && "
+        "/kinegraph merge %O %A %B -o %A --path %P' && "
         "git config diff.kinegraph.textconv '" KINEGRAPH_BIN_DIR "/kinegraph diff --textconv'");
     commit(base, "base");
   }
@@ -123,6 +123,49 @@ TEST_F(Git, TheSameListGrowsOnBothSides) {
       << said();
   EXPECT_THAT(read("g.kg.json"), HasSubstr("skate.mean < 2"));
   EXPECT_THAT(read("g.kg.json"), HasSubstr("jerk.mean < 3"));
+}
+
+TEST_F(Git, GraphsInAFolderThatUseOthers) {
+  // The list parameter that lib/judge.kg.json publishes merges by element; a link to what it doesn't publish
+  // that only both together make is a conflict.
+  std::filesystem::create_directories(path("graphs/lib"));
+  write(
+      "graphs/lib/judge.kg.json",
+      graph(
+          R"("m": {"type": "Metrics"}, "c": {"type": "Check", "inputs": {"metrics": "m.metrics"}})",
+          R"("inputs": {"motion": "m.motion"}, "params": {"rules": "c.rules"}, "outputs": {"metrics": "m.metrics"})"));
+  const auto main = [](const std::string& rules, const std::string& rest = {}) {
+    return graph(
+        R"("walk": {"type": "Gait"}, "judge": {"type": "Graph", "params": {"file": "lib/judge.kg.json", "rules": [)" +
+        rules + R"(]}, "inputs": {"motion": "walk.motion"}})" + rest);
+  };
+  write("graphs/main.kg.json", main(R"("skate < 1")"));
+  ASSERT_EQ(run({"fmt", "graphs/main.kg.json", "graphs/lib/judge.kg.json"}).exit, 0);
+  ASSERT_EQ(git("add graphs && git commit -q -m nested && git checkout -q -b mine"), 0) << said();
+  write("graphs/main.kg.json", main(R"("skate < 1", "jerk < 3")"));
+  ASSERT_EQ(run({"fmt", "graphs/main.kg.json"}).exit, 0);
+  ASSERT_EQ(git("commit -q -am mine && git checkout -q main"), 0) << said();
+  write("graphs/main.kg.json", main(R"("skate < 1", "sparc > -4")"));
+  ASSERT_EQ(run({"fmt", "graphs/main.kg.json"}).exit, 0);
+  ASSERT_EQ(git("commit -q -am yours"), 0) << said();
+  EXPECT_EQ(git("merge -q -m merged mine"), 0) << said();
+  EXPECT_THAT(read("graphs/main.kg.json"), HasSubstr(R"(["skate < 1", "sparc > -4", "jerk < 3"])"));
+  EXPECT_EQ(run({"validate", "--strict", "graphs/main.kg.json"}).exit, 0);
+}
+
+TEST_F(Git, DiffIsColouredOnATerminalAndNeverUnderNoColor) {
+  if (std::system("script --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "there is no script(1)";
+  write("a.kg.json", base);
+  write("b.kg.json", changed(base, "\"seconds\": 1", "\"seconds\": 2"));
+  const auto on_terminal = [&](const std::string& setting) {
+    const std::string command = "cd '" + path("") + "' && " + setting +
+                                " script -qec '" KINEGRAPH_BIN_DIR
+                                "/kinegraph diff a.kg.json b.kg.json' /dev/null >said 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    return read("said");
+  };
+  EXPECT_THAT(on_terminal("TERM=xterm"), HasSubstr("\x1b["));
+  EXPECT_THAT(on_terminal("NO_COLOR=1 TERM=xterm"), Not(HasSubstr("\x1b[")));
 }
 
 TEST_F(Git, GitDiffShowsUnits) {
