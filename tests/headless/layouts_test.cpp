@@ -1,5 +1,8 @@
 // The same graph where a studio keeps clips and pipelines in other folders: the same cache entries, the same
 // bytes. And a job of CI whose motion was made worse.
+#include <cstdlib>
+#include <fstream>
+
 #include "program.h"
 #include "tests/mocap.h"
 
@@ -110,6 +113,32 @@ TEST_F(Ci, AMotionMadeWorseFailsWithItsRuleValueAndLimit) {
       testing::ContainsRegex(
           "<failure message=\"skate &lt;= 1.05 \\* baseline.skate: measured [0-9.e-]+, limit [0-9.e-]+\">"));
   EXPECT_THAT(read("out/report.html"), HasSubstr("skate <= 1.05 * baseline.skate"));
+}
+
+// Every line of docs/ci.yml that calls kinegraph, in a repository as it is meant for.
+TEST_F(Ci, TheExampleWorkflowDoesWhatItSays) {
+  fs::copy(KINEGRAPH_SOURCE_DIR "/graphs", path("graphs"), fs::copy_options::recursive);
+  std::ifstream workflow(KINEGRAPH_SOURCE_DIR "/docs/ci.yml");
+  int commands = 0;
+  for (std::string line, command; std::getline(workflow, line);) {
+    const auto begin = line.find("kinegraph ");
+    const bool starts = begin != std::string::npos &&
+                        (line.find_first_not_of(' ') == begin || line.find("run: ") + 5 == begin);
+    if (command.empty() && !starts) continue;
+    command += starts ? line.substr(begin) : line;
+    if (command.ends_with("\\")) {
+      command.pop_back();
+      continue;
+    }
+    const std::string whole = "cd '" + path("") + "' && PATH='" KINEGRAPH_BIN_DIR ":'\"$PATH\" sh -c '" +
+                              command + "' >ci.log 2>&1";
+    EXPECT_EQ(std::system(whole.c_str()), 0) << command << "\n" << read("ci.log");
+    ++commands;
+    command.clear();
+  }
+  EXPECT_EQ(commands, 4);
+  for (const char* file : {"report.json", "junit.xml", "report.html", "walk_made_sneaky.bvh"})
+    EXPECT_TRUE(exists(std::string("out/") + file)) << file;
 }
 
 TEST_F(Ci, CompareByARuleFailsLikewise) {
