@@ -44,6 +44,11 @@ using Companions = std::function<std::vector<std::string>(const Params&, FileAcc
 // paths in a fixed order, so that two nodes on one file are found before anything runs.
 using AlsoWrites = std::function<std::vector<std::string>(const Params&)>;
 
+// What parameters and links can't do together, such as a file format that can't hold what is linked: told before
+// anything runs. `params` is checked and complete; `linked` names the inputs with links, in declared order. The param
+// or port of a diagnostic says where it belongs in the graph file.
+using Misfits = std::function<std::vector<Diagnostic>(const Params& params, const std::vector<std::string>& linked)>;
+
 // Resolves parameters left to auto whose meaning depends on a file's name, so that keys hold what they resolved to.
 using Resolve = std::function<void(Json::Object& params)>;
 
@@ -68,6 +73,7 @@ struct NodeType {
   Companions companions;
   AlsoWrites also_writes;
   Resolve resolve;
+  Misfits misfits;
   std::function<void(Compute&)> compute;  // stateless, sees only what is declared here
 
   NodeType& input(std::string port, std::vector<std::string> types, std::string port_help);

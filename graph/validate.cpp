@@ -35,6 +35,7 @@ class Validator {
       check_params(name, node, *type);
       check_inputs(name, node, *type);
       if (type->role == Role::select) check_choice(name, node, *type);
+      if (type->misfits && node.enabled) check_misfits(name, node, *type);
     }
     check_cycles();
     check_publish();
@@ -207,6 +208,36 @@ class Validator {
               .hinting(fmt::format("link what is to be written to one of {}",
                                    fmt::join(type.input_names(), ", "))),
           node.place, name);
+  }
+
+  void check_misfits(const std::string& name, const Node& node, const NodeType& type) {
+    Diagnostics wrong;  // each has been told
+    Json::Object params;
+    for (const Param& param : type.params) {
+      auto value = value_of(node, param, wrong);
+      if (!value || has_error(wrong)) return;
+      params[param.name] = std::move(*value);
+    }
+    std::vector<std::string> linked;
+    for (const InputPort& port : type.inputs)
+      if (const auto inputs = node.inputs.find(port.name); inputs != node.inputs.end() && gives(inputs->second))
+        linked.push_back(port.name);
+    for (Diagnostic& problem : type.misfits(Params(std::move(params)), linked)) {
+      Place place = node.place;
+      if (const auto stored = node.params.find(problem.param); stored != node.params.end())
+        place = stored->second.place;
+      if (const auto inputs = node.inputs.find(problem.port); inputs != node.inputs.end())
+        place = inputs->second.place;
+      add(std::move(problem), place, name);
+    }
+  }
+
+  // Whether anything may come of the links: an output of a disabled node can be absent.
+  bool gives(const Inputs& inputs) const {
+    return std::any_of(inputs.links.begin(), inputs.links.end(), [&](const Link& link) {
+      const auto from = document_.nodes.find(link.node);
+      return from == document_.nodes.end() || from->second.enabled;
+    });
   }
 
   static std::string file_of(const Node& node) {

@@ -25,7 +25,7 @@ struct ValidateOptions {
 // Codes: "unknown-node", "unknown-port", "type-mismatch", "open-input", "cycle", "index-out-of-range", "unknown-param",
 // "needs-list", "one-link", "missing-file", "broken-graph", "graph-cycle", "too-many-graphs" (of a Graph node's file; see
 // nested.h), "undefined-variable" and the others of substituted(), those of check(), "absolute-path" and "backslash-path"
-// (warnings), "leads-outside", "missing-file", "not-a-regular-file", "same-file".
+// (warnings), those of NodeType::misfits, "leads-outside", "missing-file", "not-a-regular-file", "same-file".
 Diagnostics validate(const Document& document, const Registry& registry, const ValidateOptions& options);
 
 // Reads and validates: all problems of a file at once, in file order.

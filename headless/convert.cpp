@@ -26,6 +26,14 @@ Json unit_param(const Program& program, const char* type, const std::string& tex
   }
 }
 
+// A problem with the file that was asked for, in the user's words for it.
+Diagnostic as_typed(Diagnostic problem, const std::string& path, const std::string& typed) {
+  if (problem.file == path) problem.file = typed;
+  for (std::size_t at = 0; (at = problem.message.find(path, at)) != std::string::npos; at += typed.size())
+    problem.message.replace(at, path.size(), typed);
+  return problem;
+}
+
 }  // namespace
 
 int convert_command(const Program& program, const ConvertArguments& arguments) {
@@ -44,8 +52,7 @@ int convert_command(const Program& program, const ConvertArguments& arguments) {
     encoded = encode_motion_file(out, "auto", contents_for(out, file.contents, work), write, work);
   } catch (const Failure& failure) {
     Diagnostic problem = failure.diagnostic();
-    if (problem.file == in) problem.file = arguments.in;
-    throw Failure(problem);
+    throw Failure(as_typed(std::move(problem), in, arguments.in));
   }
   for (Diagnostic one : work.reported) {
     if (one.file.empty()) one.file = arguments.in;

@@ -27,7 +27,7 @@ Diagnostics joined(Diagnostics all) {
 
 }  // namespace
 
-void say_log(const Terminal& terminal, const RunLog& log, const std::string& graph) {
+void say_log(const Terminal& terminal, const RunLog& log, const std::string& graph, bool tell_infos) {
   Diagnostics infos, warnings, failures, blocked;
   auto sort_in = [&](Diagnostic diagnostic) {
     if (diagnostic.severity == Severity::info)
@@ -46,7 +46,7 @@ void say_log(const Terminal& terminal, const RunLog& log, const std::string& gra
     if (diagnostic.file.empty() && diagnostic.severity == Severity::error) diagnostic.file = graph;
     sort_in(std::move(diagnostic));
   }
-  terminal.say(joined(std::move(infos)));
+  if (tell_infos) terminal.say(joined(std::move(infos)));
   for (const auto* part : {&warnings, &failures, &blocked}) terminal.say(*part);
   if (log.timed_out) terminal.message("kinegraph: timed out\n");
 }

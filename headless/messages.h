@@ -8,7 +8,8 @@
 
 namespace kinegraph {
 
-// `graph`: how the user named the graph file. Infos that several nodes say alike are one line.
-void say_log(const Terminal& terminal, const RunLog& log, const std::string& graph);
+// `graph`: how the user named the graph file. Infos that several nodes say alike are one line; `tell_infos`:
+// whether they are told at all.
+void say_log(const Terminal& terminal, const RunLog& log, const std::string& graph, bool tell_infos = true);
 
 }  // namespace kinegraph

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "graph/file/read.h"
 #include "graph/nested.h"
@@ -113,6 +114,46 @@ std::map<std::string, Json> parsed_variables(const std::vector<std::string>& var
     variables[name] = Json(text.substr(equals + 1));  // read as the parameter that uses it asks
   }
   return variables;
+}
+
+namespace {
+
+// Adds each name that stands as ${name} in a text of `value`.
+void add_variables_in(const Json& value, std::set<std::string>& names) {
+  if (value.is_array())
+    for (const Json& element : value.array()) add_variables_in(element, names);
+  if (value.is_object())
+    for (const auto& [key, member] : value.object()) add_variables_in(member, names);
+  if (!value.is_string()) return;
+  const std::string& text = value.string();
+  for (std::size_t at = text.find("${"); at != text.npos; at = text.find("${", at + 2))
+    names.insert(text.substr(at + 2, text.find('}', at) - at - 2));
+}
+
+void add_variables_of(const Document& document, std::set<std::string>& names) {
+  for (const auto& [name, value] : document.variables) names.insert(name);
+  for (const auto& [name, node] : document.nodes) {
+    for (const auto& [key, value] : node.params) add_variables_in(value, names);
+    if (node.missing) add_variables_in(*node.missing, names);
+    if (node.nested && node.nested->document) add_variables_of(*node.nested->document, names);
+  }
+}
+
+}  // namespace
+
+Diagnostics unused_variables(const Opened& opened, const std::map<std::string, Json>& variables,
+                             const std::vector<std::string>& sets) {
+  std::set<std::string> used;
+  add_variables_of(opened.document, used);
+  for (const std::string& text : sets) add_variables_in(Json(text), used);
+  Diagnostics unused;
+  for (const auto& [name, value] : variables)
+    if (!used.contains(name))
+      unused.push_back(
+          warning("unused-variable", fmt::format("--var {}: the graph has no ${{{}}}", name, name))
+              .hinting(suggestion(name, {used.begin(), used.end()}))
+              .in_file(opened.shown));
+  return unused;
 }
 
 bool is_graph_file(const std::string& path) {

@@ -154,8 +154,10 @@ int picture_command(const Program& program, const PictureArguments& arguments) {
         "no-port", fmt::format("{} is a graph: name the output to draw, NODE.PORT", arguments.run.graph)));
 
   std::vector<Target> targets;
+  RunArguments options = arguments.run;
+  options.infos = false;  // `kinegraph run` tells those; a picture is looked at often
   return run_to_outcome(
-      program, arguments.run, open_graph(arguments.run.graph, program.registry),
+      program, options, open_graph(arguments.run.graph, program.registry),
       [&](Session& session) {
         for (const auto& text : arguments.ports) {
           targets.push_back(session.target(text));

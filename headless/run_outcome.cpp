@@ -53,7 +53,7 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
             outcome.metrics[target.node] = std::dynamic_pointer_cast<const Metrics>(value);
       int after_it = after(session, outcome);
       program.terminal.results_written();  // results stand before messages where both go to one terminal
-      say_log(program.terminal, outcome.log, session.opened().shown);
+      say_log(program.terminal, outcome.log, session.opened().shown, arguments.infos);
       outcome.exit = graver(outcome.exit, after_it);
       if (!arguments.html.empty()) page = html_of(outcome, program, session, shown);
     } catch (const UsageError&) {

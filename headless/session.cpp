@@ -76,6 +76,8 @@ Session::Session(const Program& program, const RunArguments& arguments, Opened o
                             .check_files = false,
                             .allow_outside = arguments.allow_outside,
                             .variables = variables});
+  if (!has_error(opened_.problems))
+    for (auto& unused : unused_variables(opened_, variables, arguments.sets)) problems_.push_back(unused);
   if (opened_.document.read_only && !has_error(problems_))
     problems_.push_back(error("newer-schema", "a file of a newer schema can't be run")
                             .in_file(opened_.shown)

@@ -41,6 +41,7 @@ struct RunArguments {
   std::string report, junit, html;
   std::string item;  // of a batch: see PlanOptions
   std::string progress = "auto";
+  bool infos = true;  // whether what is worth knowing, and no warning, is told
 };
 
 struct Opened {
@@ -63,6 +64,10 @@ void open_graphs_inside(Opened& opened, const Registry& registry,
                         const std::vector<std::pair<std::string, std::string>>& sets, FileStore& files);
 // "NAME=VALUE" of --var. Throws UsageError.
 std::map<std::string, Json> parsed_variables(const std::vector<std::string>& vars);
+// A warning for each variable that was given and that neither the graph nor one inside it asks for or
+// declares. `sets`: of the command line, which may ask for variables too.
+Diagnostics unused_variables(const Opened& opened, const std::map<std::string, Json>& variables,
+                             const std::vector<std::string>& sets);
 // Whether a file is a graph and not a clip or an analysis: by its ending, or by its "format" member.
 bool is_graph_file(const std::string& path);
 std::string absolute_path(const std::string& path);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "headless/commands.h"
 #include "headless/exit_code.h"
 
@@ -36,6 +38,24 @@ int validate_command(const Program& program, const ValidateArguments& arguments)
   auto variables = parsed_variables(arguments.vars);
   Json::Array all;
   int code = exit_code::done;
+  const auto tell = [&](const Diagnostic& problem, const std::string& graph) {
+    if (arguments.json) {
+      all.push_back(json_of(problem, graph));
+    } else {
+      auto line = line_of(problem, graph);
+      auto word = std::string(name_of(problem.severity));
+      auto tint = problem.severity == Severity::error ? Tint::red : Tint::yellow;
+      if (program.terminal.colored_results())
+        if (auto at = line.find(": " + word + ": "); at != std::string::npos)
+          line.replace(at + 2, word.size(), program.terminal.tinted(word, tint));
+      program.terminal.result(line);
+    }
+    bool counts =
+        problem.severity == Severity::error || (arguments.strict && problem.severity == Severity::warning);
+    if (counts) code = exit_code::invalid;
+  };
+  std::map<std::string, int> without;  // message of an unused variable, and how many graphs said it
+  Diagnostics unused;
   for (const auto& graph : arguments.graphs) {
     Opened opened = open_graph(graph, program.registry);
     FileStore files;
@@ -43,23 +63,13 @@ int validate_command(const Program& program, const ValidateArguments& arguments)
     Diagnostics problems = all_problems(
         opened, program.registry,
         {.file = graph, .folder = opened.folder, .check_files = !arguments.no_files, .variables = variables});
-    for (const auto& problem : problems) {
-      if (arguments.json) {
-        all.push_back(json_of(problem, graph));
-      } else {
-        auto line = line_of(problem, graph);
-        auto word = std::string(name_of(problem.severity));
-        auto tint = problem.severity == Severity::error ? Tint::red : Tint::yellow;
-        if (program.terminal.colored_results())
-          if (auto at = line.find(": " + word + ": "); at != std::string::npos)
-            line.replace(at + 2, word.size(), program.terminal.tinted(word, tint));
-        program.terminal.result(line);
-      }
-      bool counts =
-          problem.severity == Severity::error || (arguments.strict && problem.severity == Severity::warning);
-      if (counts) code = exit_code::invalid;
-    }
+    for (const auto& problem : problems) tell(problem, graph);
+    if (has_error(opened.problems)) continue;
+    for (auto& problem : unused_variables(opened, variables, {}))
+      if (++without[problem.message] == static_cast<int>(arguments.graphs.size()))
+        unused.push_back(std::move(problem));
   }
+  for (const auto& problem : unused) tell(problem, arguments.graphs.back());
   if (arguments.json) program.terminal.result(indented(Json(std::move(all))));
   return code;
 }

@@ -138,7 +138,9 @@ class Reader {
       if (type_name)
         wrong_type(*type_name, "\"type\"", "the name of a node type", name);
       else
-        add(error("missing-key", "the node has no \"type\""), json.place, name);
+        add(error("missing-key", "the node has no \"type\"")
+                .hinting("`kinegraph nodes` lists the types there are"),
+            json.place, name);
       return placed(node_from_json(json), json);
     }
     const NodeType* type = registry_.find(type_name->string());

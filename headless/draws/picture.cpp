@@ -8,6 +8,19 @@
 
 namespace kinegraph {
 
+namespace {
+
+bool stands_still(const Motion& motion) {
+  for (int joint = 0; joint < motion.joints(); ++joint)
+    for (std::size_t t = 1; t < motion.frames(); ++t)
+      if (turn(motion.rotation(joint)[0], motion.rotation(joint)[t]) > 1e-6 ||
+          norm(motion.local_offset(joint, t) - motion.local_offset(joint, 0)) > 1e-6)
+        return false;
+  return true;
+}
+
+}  // namespace
+
 Canvas picture_of(const Value& value, const PictureOptions& options) {
   if (auto motion = dynamic_cast<const Motion*>(&value)) {
     StripOptions strip{.title = options.title, .moments = options.moments, .contact_bars = false};
@@ -20,7 +33,9 @@ Canvas picture_of(const Value& value, const PictureOptions& options) {
     return draw_strips({{options.motion, "", contacts}}, strip);
   }
   if (auto character = dynamic_cast<const Character*>(&value)) {
-    if (!options.motion) return draw_character(*character, options.title, options.moments);
+    // A face that only its morph targets move has no poses to show.
+    if (!options.motion || (!character->morph_tracks.empty() && stands_still(*options.motion)))
+      return draw_character(*character, options.title, options.moments);
     StripOptions strip{.title = options.title,
                        .subtitle = facts_of(*options.motion) + " · " + facts_of(*character),
                        .moments = options.moments,

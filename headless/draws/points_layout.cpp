@@ -179,6 +179,7 @@ std::vector<std::pair<int, int>> steady_links(const Points& points, const Bridge
 }
 
 PointsView view_of(const BridgedPoints& points) {
+  if (points.middle.empty()) return {.from = {0, 0, 1}};
   double xx = 0, xz = 0, zz = 0;
   const auto add = [&](Vec3 d) { xx += d.x * d.x, xz += d.x * d.z, zz += d.z * d.z; };
   const std::vector<Vec3> path(points.middle.begin() + static_cast<std::ptrdiff_t>(points.first),

@@ -54,7 +54,11 @@ Canvas empty_picture(const StripOptions& options) {
 }
 
 SolidMesh mesh_of(const Row& row, std::size_t frame) {
-  return row.skin->posed(pose_for(*row.asked->character, *row.asked->motion, frame));
+  const Motion& motion = *row.asked->motion;
+  const Character& character = *row.asked->character;
+  const double seconds = static_cast<double>(frame) / motion.fps();
+  return row.skin->posed(pose_for(character, motion, frame),
+                         static_cast<std::size_t>(std::lround(seconds * character.morph_fps)));
 }
 
 // Extent of the figures about the followed point, in metres on the page.

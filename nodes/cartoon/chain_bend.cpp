@@ -5,6 +5,10 @@
 namespace kinegraph {
 namespace {
 
+// Always as many, so that the result changes smoothly from frame to frame: after these a point moves by under
+// a percent of the offset.
+constexpr int rotation_rounds = 6;
+
 // Second derivatives at the knots of the cubic spline through `y` over `x`: level at the first, free at the
 // last.
 std::vector<double> curvatures(const std::vector<double>& x, const std::vector<double>& y) {
@@ -61,6 +65,40 @@ std::vector<std::vector<double>> bend_weights(const std::vector<double>& given,
     for (std::size_t w = 0; w < wanted.size(); ++w) rows[w][g] = spline_at(knots, y, m, wanted[w]);
   }
   return rows;
+}
+
+std::vector<Vec3> bent_chain(std::span<const Vec3> chain, std::span<const double> places,
+                             const std::vector<std::vector<double>>& weights,
+                             std::span<const std::size_t> given, std::span<const Vec3> targets) {
+  const std::size_t count = chain.size(), last = given.back();
+  std::vector<Vec3> bent(chain.begin(), chain.end()), turned(bent);
+  for (int round = 0; round <= rotation_rounds; ++round) {
+    // The chain of the turned bends: each link's direction is the one before plus the bend.
+    if (round > 0) {
+      const auto slope = [&](std::size_t i) {
+        return (chain[i] - chain[i - 1]) / (places[i] - places[i - 1]);
+      };
+      const auto turn_of = [&](std::size_t i) {
+        return smallest_turn(chain[i] - chain[i - 1], bent[i] - bent[i - 1]);
+      };
+      Vec3 direction = slope(1);
+      Quat above = turn_of(1);
+      turned[1] = chain[1];
+      for (std::size_t i = 2; i <= last; ++i) {
+        const Quat below = turn_of(i);
+        direction += rotate(slerp(0.5, above, below), slope(i) - slope(i - 1));
+        turned[i] = turned[i - 1] + (places[i] - places[i - 1]) * direction;
+        above = below;
+      }
+    }
+    for (std::size_t i = 1; i <= last; ++i) {
+      bent[i] = turned[i];
+      for (std::size_t g = 0; g < given.size(); ++g)
+        bent[i] += weights[i][g] * (targets[g] - turned[given[g]]);
+    }
+  }
+  for (std::size_t i = last + 1; i < count; ++i) bent[i] = chain[i] + (bent[last] - chain[last]);
+  return bent;
 }
 
 }  // namespace kinegraph

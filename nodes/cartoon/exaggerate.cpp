@@ -226,7 +226,7 @@ ExaggerateResult exaggerate(const Motion& motion, const ExaggerateParams& params
     LinkCorrectionParams correction = params.correction;
     if (wished) correction.error = std::numeric_limits<double>::infinity();
     result.correction = correct_links(skeleton, on, lengths, correction, moved, work);
-    const double times_input = 2 * std::max(result.omega, 1.0);
+    const double times_input = std::max(result.omega, 1.0);  // RubberJoints may double it
     hold_link_flips(skeleton, lengths, world, {most_turn_a_second / motion.fps(), times_input}, moved, work);
   }
   work.progress(0.8);

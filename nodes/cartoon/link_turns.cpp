@@ -162,7 +162,7 @@ void aim_link(Vec3 axis, ConstVec3Track old_from, ConstVec3Track old_to, ConstVe
   }
   const std::vector<double> held = with_steps_between(twist, fewest, largest);
   for (std::size_t t = 0; t < frames; ++t)
-    out.set(t, normalized(out[t] * axis_angle(axis, held[t] - twist[t])));
+    if (held[t] != twist[t]) out.set(t, normalized(out[t] * axis_angle(axis, held[t] - twist[t])));
   make_continuous(out.x, out.y, out.z, out.w);
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 // Steps a second at least: some 40 to a swing of the defaults, which is of second order.
 constexpr double usual_rate = 120;
-constexpr double exact_enough = 1e-12;  // of r⁺, in parts of the link's length
+constexpr double exact_enough = 1e-11;  // of r⁺, in parts of the link's length
 constexpr int most_repetitions = 40;
 // The push of a squashed link, as part of the system's diagonal, beyond which the step is halved, and how
 // often.
@@ -20,7 +20,7 @@ class Chain {
   Chain(const std::vector<int>& parents, const MassSpringParams& params)
       : parents_(parents), params_(params) {
     const std::size_t n = parents.size();
-    for (auto* list : {&x_, &v_, &u_, &right_, &s_, &next_s_}) list->resize(n);
+    for (auto* list : {&x_, &v_, &u_, &right_, &free_, &to_parent_, &s_, &next_s_}) list->resize(n);
     for (auto* list : {&r_, &next_r_, &length_, &next_length_, &diagonal_, &coupling_}) list->resize(n);
   }
 
@@ -61,21 +61,22 @@ class Chain {
   // Finds the mean velocities of a step; false: the step is too long for how squashed a link is.
   bool solved(double h, bool whatever) {
     const std::size_t n = x_.size();
-    const Vec3 drag_velocity = params_.drag_in_root ? (1 / h) * (next_s_[0] - s_[0]) : Vec3{};
+    const Vec3 drag = (h * params_.drag) * (params_.drag_in_root ? (1 / h) * (next_s_[0] - s_[0]) : Vec3{});
     for (std::size_t i = 0; i < n; ++i) {
+      free_[i] = 2 * v_[i] + (h * params_.hook) * (0.5 * ((s_[i] - x_[i]) + (next_s_[i] - x_[i]))) + drag;
       if (parents_[i] < 0) continue;
       const std::size_t p = parents_[i];
+      to_parent_[i] = x_[p] - x_[i];
       next_length_[i] = norm(next_s_[i] - next_s_[p]);
-      // First guess of the new length: as the masses fly.
-      next_r_[i] = norm((x_[i] - x_[p]) + h * (v_[i] - v_[p]));
+      // First guess of the new length: as the masses fly, their velocities changing as in the step before.
+      next_r_[i] = norm(h * ((2 * v_[i] - u_[i]) - (2 * v_[p] - u_[p])) - to_parent_[i]);
     }
     for (int repetition = 0; repetition < most_repetitions; ++repetition) {
-      if (!solve(h, drag_velocity) && !whatever) return false;
+      if (!solve(h) && !whatever) return false;
       double change = 0;
       for (std::size_t i = 0; i < n; ++i) {
         if (parents_[i] < 0) continue;
-        const std::size_t p = parents_[i];
-        const double r = norm((x_[i] - x_[p]) + h * (u_[i] - u_[p]));
+        const double r = norm(h * (u_[i] - u_[parents_[i]]) - to_parent_[i]);
         const double moved = std::fabs(r - next_r_[i]) - exact_enough * (r + length_[i]);
         change = moved > change ? moved : change;
         next_r_[i] = r;
@@ -90,16 +91,13 @@ class Chain {
   //     = 2 v_i + h [hook (s̄_i − x_i) + Σ_n c_in (x_n − x_i) + drag v_drag],  c = link (1 − 2 ℓ̄ / (r⁺ + r)).
   // Leaves to root, then back.
   // False: a link's push was held to the strongest.
-  bool solve(double h, Vec3 drag_velocity) {
+  bool solve(double h) {
     bool within = true;
     const std::size_t n = x_.size();
     const double half_square = 0.5 * h * h;
     const double own = 2 + h * params_.drag + half_square * params_.hook;
-    for (std::size_t i = 0; i < n; ++i) {
-      diagonal_[i] = own;
-      right_[i] = 2 * v_[i] + (h * params_.hook) * (0.5 * ((s_[i] - x_[i]) + (next_s_[i] - x_[i]))) +
-                  (h * params_.drag) * drag_velocity;
-    }
+    std::fill(diagonal_.begin(), diagonal_.end(), own);
+    std::copy(free_.begin(), free_.end(), right_.begin());
     for (std::size_t i = 0; i < n; ++i) {
       if (parents_[i] < 0) continue;
       const std::size_t p = parents_[i];
@@ -112,7 +110,7 @@ class Chain {
       coupling_[i] = half_square * c;
       diagonal_[i] += coupling_[i];
       diagonal_[p] += coupling_[i];
-      const Vec3 pull = (h * c) * (x_[p] - x_[i]);
+      const Vec3 pull = (h * c) * to_parent_[i];
       right_[i] += pull;
       right_[p] -= pull;
     }
@@ -134,7 +132,7 @@ class Chain {
 
   const std::vector<int>& parents_;
   const MassSpringParams& params_;
-  std::vector<Vec3> x_, v_, u_, right_, s_, next_s_;
+  std::vector<Vec3> x_, v_, u_, right_, free_, to_parent_, s_, next_s_;
   std::vector<double> r_, next_r_, length_, next_length_, diagonal_, coupling_;
 };
 

@@ -142,21 +142,23 @@ void bend(const Skeleton& skeleton, const PinnedChain& chain, const WorldMotion&
   }
   for (std::size_t t = 0; t < frames; ++t) {
     if (t % 256 == 0) work.check();
-    std::vector<Vec3> shift(chain.joints.size());
+    std::vector<Vec3> shift(chain.joints.size()), now;
     for (std::size_t set = 1; set < sets; ++set) {
       double part = 1;
       for (std::size_t g = 0; g < chain.goals.size(); ++g)
         part *= set >> g & 1 ? chain.goals[g].second.part[t] : 1 - chain.goals[g].second.part[t];
       if (part == 0) continue;
-      for (std::size_t i = 1; i < shift.size(); ++i) {
-        std::size_t column = 0;
-        for (std::size_t g = 0; g < chain.goals.size(); ++g) {
-          if (!(set >> g & 1)) continue;
-          const auto& [index, goal] = chain.goals[g];
-          const Vec3 away = goal.target[t] - world.position(chain.joints[index])[t];
-          shift[i] += part * curves[set][i][column++] * away;
-        }
+      if (now.empty())
+        for (int joint : chain.joints) now.push_back(world.position(joint)[t]);
+      std::vector<std::size_t> given;
+      std::vector<Vec3> targets;
+      for (std::size_t g = 0; g < chain.goals.size(); ++g) {
+        if (!(set >> g & 1)) continue;
+        given.push_back(chain.goals[g].first);
+        targets.push_back(chain.goals[g].second.target[t]);
       }
+      const std::vector<Vec3> bent = bent_chain(now, places, curves[set], given, targets);
+      for (std::size_t i = 1; i < shift.size(); ++i) shift[i] += part * (bent[i] - now[i]);
     }
     // What hangs on the chain rides with its joint.
     for (int j = chain.joints.front(); j < skeleton.size(); ++j) {

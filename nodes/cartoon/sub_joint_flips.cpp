@@ -11,9 +11,10 @@ namespace kinegraph {
 namespace {
 
 constexpr double most_a_second = 29.5 * 120 / degrees_per_radian;
+constexpr double times_input = 1.99;  // or that many times the turn of the joints' own link
 constexpr double free_below = 0.2;    // of a link's rest length
 constexpr double least_link = 1e-3;   // of the height: a shorter one has no direction to speak of
-constexpr double fade_seconds = 0.1;  // in which a limb is calmed and let go again
+constexpr double fade_seconds = 0.3;  // in which a limb is calmed and let go again
 constexpr int most_rounds = 12;
 constexpr double calm_enough = 0.9;  // more than that is all
 
@@ -28,7 +29,8 @@ class Calm {
 
   bool any() const { return any_; }
   double left(std::size_t frame) const { return 1 - lost_[frame]; }
-  bool is_full(std::size_t frame) const { return lost_[frame] >= 1; }
+  // Of all, from frame − 1 to frame.
+  bool is_full(std::size_t frame) const { return lost_[frame] >= 1 && lost_[frame - 1] >= 1; }
 
   // Half of what is left goes from frame − 1 to frame.
   void more_at(std::size_t frame) {
@@ -66,11 +68,14 @@ FlipWatch::FlipWatch(const SubJoints& sub, const Skeleton& rubber, const WorldMo
   }
 }
 
-double FlipWatch::input_turn(int i, std::size_t t) const {
+// What Exaggerate lets pass is either below `most_` or a share of what its own input turned, of which as much
+// again is left.
+double FlipWatch::allowed(int i, std::size_t t) const {
   const SubJoint &lower = sub_.all[i], &upper = sub_.all[parents_[i]];
   const int from = upper.joint, to = lower.step == 0 ? lower.joint : upper.next;
   const auto a = world_.position(from), b = world_.position(to);
-  return angle_between(b[t - 1] - a[t - 1], b[t] - a[t]);
+  const double input = angle_between(b[t - 1] - a[t - 1], b[t] - a[t]);
+  return input > most_ ? times_input * input : most_;
 }
 
 std::vector<std::size_t> FlipWatch::flips(const WorldMotion& places, int i) const {
@@ -79,14 +84,16 @@ std::vector<std::size_t> FlipWatch::flips(const WorldMotion& places, int i) cons
   if (shortest < 0) return frames;
   const double cosine_squared = most_ < pi / 2 ? cosine(most_) * cosine(most_) : 2;
   const auto child = places.position(i), parent = places.position(parents_[i]);
-  Vec3 before = child[0] - parent[0];
+  const double *cx = child.x.data(), *cy = child.y.data(), *cz = child.z.data();
+  const double *px = parent.x.data(), *py = parent.y.data(), *pz = parent.z.data();
+  Vec3 before{cx[0] - px[0], cy[0] - py[0], cz[0] - pz[0]};
   double before_squared = dot(before, before);
   for (std::size_t t = 1; t < places.frames(); ++t) {
-    const Vec3 link = child[t] - parent[t];
+    const Vec3 link{cx[t] - px[t], cy[t] - py[t], cz[t] - pz[t]};
     const double squared = dot(link, link), along = dot(before, link);
-    const bool turns = along <= 0 || along * along < cosine_squared * squared * before_squared;
-    if (turns && squared > shortest && before_squared > shortest &&
-        angle_between(before, link) > std::max(most_, input_turn(i, t)))
+    // Most turn little: along > 0 and cos² of the angle above the limit's.
+    if (!(along * std::fabs(along) >= cosine_squared * (squared * before_squared)) && squared > shortest &&
+        before_squared > shortest && angle_between(before, link) > allowed(i, t))
       frames.push_back(t);
     before = link;
     before_squared = squared;
@@ -153,9 +160,11 @@ void add_swings(const SubJoints& sub, const FlipWatch& watch, std::vector<Vec3> 
     const int parent = sub.all[i].parent;
     limb[i] = parent < 0 || children[parent] > 1 ? static_cast<int>(i) : limb[parent];
   }
+  std::vector<char> changed(count, 1);
   std::vector<Vec3> still;  // before any swing; kept once something flips
   const auto put = [&](bool again) {
     for (std::size_t i = 0; i < count; ++i) {
+      if (!changed[i]) continue;
       const auto at = places.position(static_cast<int>(i));
       for (std::size_t t = 0; t < frames; ++t) {
         const double part = left[i].empty() ? 1 : left[i][t];
@@ -169,13 +178,16 @@ void add_swings(const SubJoints& sub, const FlipWatch& watch, std::vector<Vec3> 
   for (int round = 0; round < most_rounds; ++round) {
     work.check();
     bool flipped = false;
+    std::vector<char> calmed(count);
     for (std::size_t i = 1; i < count; ++i) {
+      if (!changed[i] && !changed[sub.all[i].parent]) continue;
       for (std::size_t t : watch.flips(places, static_cast<int>(i))) {
         if (calm.empty()) calm.assign(count, Calm(frames, fps));
         int of = limb[i];
         while (calm[of].is_full(t) && sub.all[of].parent >= 0) of = limb[sub.all[of].parent];
         flipped = flipped || !calm[of].is_full(t);
         calm[of].more_at(t);
+        calmed[of] = 1;
       }
     }
     if (!flipped) return;
@@ -192,6 +204,8 @@ void add_swings(const SubJoints& sub, const FlipWatch& watch, std::vector<Vec3> 
     for (Calm& one : calm) one.settle();
     for (std::size_t i = 0; i < count; ++i) {
       const int above = sub.all[limb[i]].parent;
+      changed[i] = calmed[limb[i]] || (above >= 0 && changed[above]);
+      if (!changed[i]) continue;
       for (std::size_t t = 0; t < frames; ++t) {
         const Vec3 rides = above < 0 ? Vec3{} : swing[t * count + above];
         const Vec3 own = whole[t * count + i] - (above < 0 ? Vec3{} : whole[t * count + above]);

@@ -8,8 +8,8 @@
 
 namespace kinegraph {
 
-// Frames at which sub-links turn further from the frame before than 30° (at 120 frames a second) and than the
-// joints' link they are part of, while longer than 20 % of their rest length.
+// Frames at which sub-links turn further from the frame before than 30° (at 120 frames a second), or, where
+// the joints' link they are part of does, than twice that, while longer than 20 % of their rest length.
 class FlipWatch {
  public:
   // `rubber`: the sub-joint skeleton at rest; `world`: the joints. Both must outlive this.
@@ -18,7 +18,7 @@ class FlipWatch {
   std::vector<std::size_t> flips(const WorldMotion& places, int i) const;
 
  private:
-  double input_turn(int i, std::size_t t) const;
+  double allowed(int i, std::size_t t) const;
   const SubJoints& sub_;
   const WorldMotion& world_;
   std::vector<int> parents_;

@@ -113,7 +113,8 @@ void limit_twist(Vec3 axis, std::span<const InputTwist> inputs, const TurnLimits
   }
   const std::vector<double> held = with_steps_between(twist, least, most);
   for (std::size_t t = 0; t < frames; ++t)
-    orientations.set(t, normalized(orientations[t] * axis_angle(axis, held[t] - twist[t])));
+    if (held[t] != twist[t])
+      orientations.set(t, normalized(orientations[t] * axis_angle(axis, held[t] - twist[t])));
 }
 
 }  // namespace kinegraph

@@ -35,6 +35,37 @@ double floor_under(const Skeleton& skeleton, const WorldMotion& world, const std
   return *at;
 }
 
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// A stance rolls over the ground by so much; only what goes beyond is the ground's.
+constexpr double own_slide = 0.04;  // m/s
+
+// How all plants slide in common, m/s in the plane: the median over their frames, less own_slide.
+Vec3 ground_slide(const std::vector<std::vector<Vec3>>& paths, const Contacts& contacts) {
+  std::vector<double> x, z;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    for (std::size_t t = 1; t < contacts.frames; ++t) {
+      if (!contacts.points[i].planted[t] || !contacts.points[i].planted[t - 1]) continue;
+      const Vec3 step = paths[i][t] - paths[i][t - 1];
+      x.push_back(step.x * contacts.fps);
+      z.push_back(step.z * contacts.fps);
+    }
+  }
+  if (x.empty()) return {};
+  const Vec3 slide{median(x), 0, median(z)};
+  return std::max(0.0, norm(slide) - own_slide) * normalized(slide);
+}
+
+// The paths as seen from ground that slides.
+void stand_on(Vec3 slide, double fps, std::vector<std::vector<Vec3>>& paths) {
+  for (std::vector<Vec3>& path : paths)
+    for (std::size_t t = 0; t < path.size(); ++t) path[t] -= (static_cast<double>(t) / fps) * slide;
+}
+
 bool means(const ContactEdit& edit, const FootPoint& point) {
   const bool foot = edit.foot == point.foot || edit.foot == (point.left ? "left" : "right");
   return foot && (edit.part == "both" || edit.part == point.part);
@@ -79,12 +110,23 @@ Contacts detect_contacts(const Motion& motion, const DetectContactsParams& param
   const WorldMotion world = world_motion(motion, work);
   contacts.floor = floor_under(motion.skeleton(), world, contacts.points);
   contacts.leg = leg_length(motion.skeleton());
-  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
-    work.check();
-    FootPoint& point = contacts.points[i];
-    point.planted = planted_frames(path_of(point, world), motion.fps(), params);
-    work.progress(static_cast<double>(i + 1) / static_cast<double>(contacts.points.size()));
+  std::vector<std::vector<Vec3>> paths;
+  for (const FootPoint& point : contacts.points) paths.push_back(path_of(point, world));
+  // Twice: what is found first tells how the ground slides under all of it.
+  for (int pass = 0; pass < 2; ++pass) {
+    if (pass > 0) stand_on(ground_slide(paths, contacts), motion.fps(), paths);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      work.check();
+      contacts.points[i].planted = planted_frames(paths[i], motion.fps(), params);
+      work.progress(static_cast<double>(pass * paths.size() + i + 1) / static_cast<double>(2 * paths.size()));
+    }
   }
+  const auto planted_once = [](const FootPoint& point) { return !runs_of(point.planted).empty(); };
+  if (contacts.frames > 1 && params.edits.empty() &&
+      std::none_of(contacts.points.begin(), contacts.points.end(), planted_once))
+    work.report(
+        info("no-contacts", fmt::format("no foot rests for {:g} s anywhere", params.min_time))
+            .hinting("runners' feet rest for as little as 0.04 s: lower min_time, or set plants by edits"));
   apply_edits(params.edits, contacts);
   for (FootPoint& point : contacts.points) measure_heights(point, world);
   return contacts;

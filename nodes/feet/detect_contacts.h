@@ -1,6 +1,7 @@
 // When heels and balls of the feet are planted: low, and moving with one even slide. A plant is known by the
 // evenness of its movement rather than by standing still, so that skating feet are found as well: the speed
-// is measured against the plant's own slide.
+// is measured against the plant's own slide, and slides against what all of them have in common (a drift of
+// the whole motion).
 #pragma once
 #include <string>
 #include <vector>
@@ -26,7 +27,8 @@ struct DetectContactsParams {
   std::vector<ContactEdit> edits;  // applied in order over what was found
 };
 
-// The whole clip is looked at. Throws Failure ("no-feet", "unknown-foot", "bad-range").
+// The whole clip is looked at. Throws Failure ("no-feet", "unknown-foot", "bad-range"); tells where it finds
+// nothing (info "no-contacts").
 Contacts detect_contacts(const Motion& motion, const DetectContactsParams& params, Work& work);
 
 // Of one point's path, metres: one flag a frame.

@@ -40,7 +40,7 @@ NodeType detect_contacts_node() {
   type.param("speed", number(defaults.speed).between(0.001, 100).in("m/s").slider(0.05, 0.6),
              "A plant moves by less than this against its own even slide.");
   type.param("min_time", number(defaults.min_time).between(0, 10).in("s").slider(0, 0.4),
-             "Shorter plants are dropped.");
+             "Shorter plants are dropped; a runner's can be as short as 0.04.");
   type.param("edits",
              list(object({required(text("left")).as("foot", "left, right, or the ankle joint's name"),
                           choice({{"both", "heel and ball"}, {"heel", "the heel"}, {"ball", "the ball"}})
@@ -49,6 +49,7 @@ NodeType detect_contacts_node() {
                           range().as("range", "frames"),
                           boolean(true).as("planted", "planted there or not").optional(Json(true))})),
              "Corrections by hand, applied in order over what was found.");
+  type.code_version = 2;
   type.compute = [](Compute& node) {
     const auto& motion = node.input<Motion>("motion");
     node.output("contacts", detect_contacts(motion, detect_contacts_params(node.params()), node.work()));

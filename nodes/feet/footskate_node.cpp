@@ -75,6 +75,7 @@ NodeType footskate_node() {
   add_range_param(type);
   add_fade_param(type);
   add_amount_param(type);
+  type.code_version = 2;
   type.compute = clean;
   return type;
 }

@@ -28,13 +28,6 @@ void export_file(Compute& compute) {
   for (const FilePort& port : file_ports())
     if (auto values = compute.values(port.name); !values.empty())
       contents.push_back({std::string(port.name), values.front()});
-  const auto is = [&](std::size_t i, std::string_view port) { return contents[i].port == port; };
-  const bool motion_and_character = contents.size() == 2 && (is(0, "motion") || is(1, "motion")) &&
-                                    (is(0, "character") || is(1, "character"));
-  if (contents.size() > 1 && !motion_and_character)
-    throw Failure(error("several-inputs", fmt::format("{} inputs are linked", contents.size()))
-                      .hinting("link exactly one, or a motion and a character; use one Export a file")
-                      .at_port(contents[1].port));
   const EncodedFile file =
       encode_motion_file(path, params.text("format"), contents, write_options(params), compute.work());
   for (const auto& [name, bytes] : file.companions) compute.write_file("file", bytes, name);
@@ -74,6 +67,14 @@ NodeType export_node() {
   for (const LengthUnit& unit : known_units()) units.push_back({unit.name, to_text(unit)});
   type.param("unit", unit_of(std::move(units)), "The unit of the file's lengths; a number is metres.");
   type.resolve = [](Json::Object& params) { resolve_format(params, write_format_of); };
+  type.misfits = [](const Params& params, const std::vector<std::string>& linked) {
+    std::vector<Diagnostic> found;
+    // Neither a file nor an input: told as such.
+    if (params.text("file").empty() || linked.empty()) return found;
+    if (auto objection = objection_to_writing(params.text("file"), params.text("format"), linked))
+      found.push_back(std::move(*objection));
+    return found;
+  };
   type.also_writes = [](const Params& params) {
     const std::string& path = params.text("file");
     const std::string& named = params.text("format");

@@ -35,18 +35,21 @@ std::string list_of(const std::vector<std::string_view>& words) {
   return text;
 }
 
+bool holds(const WriteFormat& format, std::string_view port) {
+  return std::find(format.ports.begin(), format.ports.end(), port) != format.ports.end();
+}
+
 std::string readable() {
   std::vector<std::string_view> keys;
   for (const ReadFormat& format : read_formats()) keys.push_back(format.key);
   return "formats that can be read: " + list_of(keys);
 }
 
-std::string writable(const std::vector<FileContent>& contents) {
+std::string writable(const std::vector<std::string>& ports) {
   std::vector<std::string_view> keys;
   for (const WriteFormat& format : write_formats())
-    if (format.write && std::all_of(contents.begin(), contents.end(), [&](const FileContent& content) {
-          return std::find(format.ports.begin(), format.ports.end(), content.port) != format.ports.end();
-        }))
+    if (format.write &&
+        std::all_of(ports.begin(), ports.end(), [&](const std::string& port) { return holds(format, port); }))
       keys.push_back(format.key);
   return keys.empty() ? "no format can hold it" : "formats that can hold it: " + list_of(keys);
 }
@@ -79,6 +82,13 @@ const ReadFormat* reader_of(const std::string& path, const ReadOptions& options,
   if (key.empty()) key = format_of_bytes(bytes);
   for (const ReadFormat& format : read_formats())
     if (format.key == key) return &format;
+  return nullptr;
+}
+
+const WriteFormat* writer_of(const std::string& path, std::string_view key) {
+  const std::string wanted = key == "auto" ? write_format_of(path) : std::string(key);
+  for (const WriteFormat& format : write_formats())
+    if (format.key == wanted) return &format;
   return nullptr;
 }
 
@@ -119,22 +129,9 @@ MotionFile read_motion_file(const std::string& path, const ReadOptions& options,
   }
 }
 
-namespace {
-
-const WriteFormat* write_format(std::string_view key) {
-  for (const WriteFormat& one : write_formats())
-    if (one.key == key) return &one;
-  return nullptr;
-}
-bool holds(const WriteFormat& format, std::string_view port) {
-  return std::find(format.ports.begin(), format.ports.end(), port) != format.ports.end();
-}
-
-}  // namespace
-
 std::vector<FileContent> contents_for(const std::string& path, const std::vector<FileContent>& contents,
                                       Work& work) {
-  const WriteFormat* format = write_format(write_format_of(path));
+  const WriteFormat* format = writer_of(path, "auto");
   if (!format) return contents;
   std::vector<FileContent> fit;
   std::string left;
@@ -157,28 +154,41 @@ std::vector<FileContent> contents_for(const std::string& path, const std::vector
   return fit;
 }
 
-EncodedFile encode_motion_file(const std::string& path, std::string_view key,
+std::optional<Diagnostic> objection_to_writing(const std::string& path, std::string_view format,
+                                               const std::vector<std::string>& ports) {
+  if (ports.empty())
+    return error("nothing-to-write", "no input is linked").hinting("link what is to be written");
+  const auto linked = [&](std::string_view port) {
+    return std::find(ports.begin(), ports.end(), port) != ports.end();
+  };
+  if (ports.size() > 1 && !(ports.size() == 2 && linked("motion") && linked("character")))
+    return error("several-inputs", fmt::format("{} inputs are linked", ports.size()))
+        .hinting("link exactly one, or a motion and a character; use one Export a file")
+        .at_port(ports[1]);
+  const WriteFormat* writer = writer_of(path, format);
+  if (!writer)
+    return error("unknown-format", "the file's ending tells no format")
+        .hinting("set format or another ending; " + writable(ports))
+        .at_param("file");
+  for (const std::string& port : ports)
+    if (!holds(*writer, port))
+      return error("wrong-content", fmt::format("the format {} can't hold {}", writer->key, port))
+          .hinting(writable(ports))
+          .at_port(port);
+  if (!writer->write)
+    return error("no-writer", fmt::format("files of the format {} can't be written", writer->key))
+        .hinting(writable(ports))
+        .at_param("format");
+  return {};
+}
+
+EncodedFile encode_motion_file(const std::string& path, std::string_view format,
                                const std::vector<FileContent>& contents, const WriteOptions& options,
                                Work& work) {
-  const std::string wanted = key == "auto" ? write_format_of(path) : std::string(key);
-  const WriteFormat* format = write_format(wanted);
-  if (contents.empty())
-    throw Failure(error("nothing-to-write", "no input is linked").hinting("link what is to be written"));
-  if (!format)
-    throw Failure(error("unknown-format", "the file's ending tells no format")
-                      .hinting("set format or another ending; " + writable(contents))
-                      .at_param("file"));
-  for (const FileContent& content : contents)
-    if (!holds(*format, content.port))
-      throw Failure(
-          error("wrong-content", fmt::format("the format {} can't hold {}", format->key, content.port))
-              .hinting(writable(contents))
-              .at_port(content.port));
-  if (!format->write)
-    throw Failure(error("no-writer", fmt::format("files of the format {} can't be written", format->key))
-                      .hinting(writable(contents))
-                      .at_param("format"));
-  return format->write({path, contents, options}, work);
+  std::vector<std::string> ports;
+  for (const FileContent& content : contents) ports.push_back(content.port);
+  if (const auto objection = objection_to_writing(path, format, ports)) throw Failure(*objection);
+  return writer_of(path, format)->write({path, contents, options}, work);
 }
 
 }  // namespace kinegraph

@@ -1,6 +1,7 @@
 // One call to read any motion file and one to write it: what Load, Export and the commands info, convert,
 // compare and picture stand on.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -53,8 +54,11 @@ struct EncodedFile {
 std::vector<FileContent> contents_for(const std::string& path, const std::vector<FileContent>& contents,
                                       Work& work);
 
-// `path` tells the format where it is "auto", and names companions. Throws Failure: "unknown-format",
-// "no-writer", "wrong-content" naming what the format can hold.
+// What speaks against writing a file of these ports: "nothing-to-write", "several-inputs", "unknown-format",
+// "no-writer", "wrong-content" naming what can hold them. `path` tells the format where it is "auto".
+std::optional<Diagnostic> objection_to_writing(const std::string& path, std::string_view format,
+                                               const std::vector<std::string>& ports);
+// `path` names companions, too. Throws Failure with what objection_to_writing has to say.
 EncodedFile encode_motion_file(const std::string& path, std::string_view format,
                                const std::vector<FileContent>& contents, const WriteOptions& options,
                                Work& work);

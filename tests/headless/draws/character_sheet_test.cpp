@@ -103,6 +103,16 @@ TEST(CharacterSheet, ShowsMomentsOfOneThatItsMorphTargetsMove) {
     EXPECT_THAT(svg, HasSubstr(words));
 }
 
+TEST(CharacterSheet, ShowsMorphTargetsOfOneWhoseSkeletonStandsStill) {
+  Character character = box();
+  character.parts[0].morphs.push_back({"grow", character.parts[0].positions, {}});
+  character.morph_fps = 10;
+  character.morph_tracks.push_back({0, 0, {0, 0.5, 1}});
+  const Motion still(character.skeleton, std::make_shared<SourceFacts>(), 10, 3, {false});
+  EXPECT_THAT(picture_of(character, {.title = "", .motion = &still}).svg(""),
+              HasSubstr("the farther from rest"));
+}
+
 TEST(CharacterSheet, SaysThatThereIsNoMesh) {
   EXPECT_THAT(picture_of(Character(), {}).svg(""), HasSubstr("no mesh"));
 }

@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 
 #include "graph/diagnostic.h"
+#include "nodes/cartoon/chain_bend.h"
 #include "nodes/cartoon/exaggerate.h"
+#include "nodes/cartoon/groups.h"
 #include "nodes/cartoon/rubber_joints.h"
 #include "nodes/feet/detect_contacts.h"
+#include "nodes/motion/elementary.h"
 #include "nodes/motion/kinematics.h"
+#include "tests/nodes/cartoon/cartoon_clips.h"
 #include "tests/nodes/run_node.h"
 #include "tests/nodes/time/walks.h"
 
@@ -76,21 +80,91 @@ TEST(Pin, KeepsTheChainsDirectionAtItsFirstJoint) {
 TEST(Pin, AddsLittleAcceleration) {
   Alone work;
   const double fps = 240;
-  const Motion still = still_pose(480, fps);
-  const int hand = still.skeleton().find("LeftHand");
-  for (double d : {0.05, 0.2}) {
-    for (double t : {0.25, 0.5}) {
-      PinParams params;
-      params.fade = t;
-      params.pins = {{"LeftHand", 200, 260, world_motion(still).position(hand)[0] + Vec3{0, d, 0}}};
-      const WorldMotion after = world_motion(pin(still, params, nullptr, work));
-      double worst = 0;
-      for (std::size_t f = 1; f + 1 < still.frames(); ++f)
-        worst = std::max(worst, norm(after.position(hand)[f + 1] - 2 * after.position(hand)[f] +
-                                     after.position(hand)[f - 1]) *
-                                    fps * fps);
-      EXPECT_LT(worst, 8 * d / (t * t));
-      EXPECT_GT(worst, 2 * d / (t * t));
+  const Motion pose = still_pose(480, fps);
+  const Motion rubber = rubber_joints(pose, {}, nullptr, work).motion;
+  for (const Motion* still : {&pose, &rubber}) {
+    const int hand = still->skeleton().find("LeftHand"), shoulder = still->skeleton().find("LeftShoulder");
+    for (Vec3 way : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{0.6, -0.8, 0}, Vec3{0, 0, -1}}) {
+      for (double d : {0.05, 0.2}) {
+        for (double t : {0.25, 0.5}) {
+          PinParams params;
+          params.fade = t;
+          params.pins = {{"LeftHand", 200, 260, world_motion(*still).position(hand)[0] + d * way}};
+          const WorldMotion after = world_motion(pin(*still, params, nullptr, work));
+          double of_hand = 0, of_any = 0;
+          for (int j = shoulder; j < still->joints(); ++j) {
+            if (!still->skeleton().is_below(j, shoulder)) continue;
+            for (std::size_t f = 1; f + 1 < still->frames(); ++f) {
+              const auto at = after.position(j);
+              const double size = norm(at[f + 1] - 2 * at[f] + at[f - 1]) * fps * fps;
+              of_any = std::max(of_any, size);
+              if (j == hand) of_hand = std::max(of_hand, size);
+            }
+          }
+          EXPECT_LT(of_any, 8 * d / (t * t)) << d << " m in " << t << " s";
+          EXPECT_GT(of_hand, 2 * d / (t * t));
+        }
+      }
+    }
+  }
+}
+
+TEST(BentChain, TurnsItsBendsAlongWithItself) {
+  // A chain along x that zigzags in y; its end is carried over so that it ends along y. The zigzag must then
+  // lie across the new direction, not along it.
+  constexpr std::size_t links = 12;
+  std::vector<Vec3> straight, zigzag;
+  std::vector<double> places;
+  for (std::size_t i = 0; i <= links; ++i) {
+    straight.push_back({0.05 * static_cast<double>(i), 0, 0});
+    zigzag.push_back(straight[i] + Vec3{0, i % 2 && i > 1 ? 0.01 : 0, 0});
+    places.push_back(straight[i].x);
+  }
+  const std::vector<std::size_t> given{links};
+  const Vec3 targets[] = {{0.3, 0.5, 0}};
+  const auto weights = bend_weights({places[links]}, places);
+  const auto smooth = bent_chain(straight, places, weights, given, targets);
+  const auto bent = bent_chain(zigzag, places, weights, given, targets);
+  EXPECT_LT(norm(bent[links] - targets[0]), 1e-12);
+  EXPECT_EQ(bent[0], zigzag[0]);
+  double along = 0, along_if_shifted = 0;
+  for (std::size_t i = links / 2; i < links; ++i) {
+    const Vec3 direction = normalized(smooth[i + 1] - smooth[i - 1]);
+    along += std::fabs(dot(bent[i] - smooth[i], direction));
+    along_if_shifted += std::fabs(dot(zigzag[i] - straight[i], direction));
+  }
+  EXPECT_LT(along, 0.5 * along_if_shifted);
+}
+
+TEST(BentChain, StaysWhereItsTargetsAre) {
+  std::vector<Vec3> arm{{0, 0, 0}, {0.1, 0, 0}, {0.2, 0.05, 0}, {0.28, 0.12, 0.03}};
+  const std::vector<double> places{0, 0.1, 0.21, 0.32};
+  const std::vector<std::size_t> given{3};
+  const Vec3 targets[] = {arm[3]};
+  const auto bent = bent_chain(arm, places, bend_weights({0.32}, places), given, targets);
+  for (std::size_t i = 0; i < arm.size(); ++i) EXPECT_LT(norm(bent[i] - arm[i]), 1e-12);
+}
+
+TEST(Pin, MeetsItsPointsWithinAMillimetreOnAnyClip) {
+  KINEGRAPH_NEEDS_MOCAP();
+  for (const char* file : cartoon_clips) {
+    Alone work;
+    const Motion clip = cartoon_clip(file, 120);
+    for (const Motion& motion :
+         {clip, rubber_joints(exaggerate(clip, {}, work).motion, {}, nullptr, work).motion}) {
+      const WorldMotion before = world_motion(motion);
+      // The last joint of every limb of two joints or more.
+      for (const auto& group : automatic_groups(motion.skeleton(), small_ends(motion.skeleton()))) {
+        if (group.size() < 3) continue;
+        const int end = group.back();
+        const Vec3 goal = before.position(end)[50] + Vec3{0.1, 0.1, -0.1};
+        PinParams params;
+        params.pins = {{motion.skeleton().joints[end].name, 40, 60, goal}};
+        const WorldMotion after = world_motion(pin(motion, params, nullptr, work));
+        for (std::size_t t = 40; t < 60; ++t)
+          ASSERT_LT(norm(after.position(end)[t] - goal), 1e-3)
+              << file << " " << params.pins[0].joint << " " << t;
+      }
     }
   }
 }
