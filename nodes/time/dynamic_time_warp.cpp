@@ -169,7 +169,10 @@ class Search {
         std::swap(before, best);
       }
     }
-    return trace_back(codes, reach, before);
+    work_.check();
+    WarpPath path = trace_back(codes, reach, before);
+    work_.check();  // before hundreds of MiB of codes are let go
+    return path;
   }
 
  private:

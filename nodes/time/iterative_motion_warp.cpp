@@ -23,9 +23,12 @@ class Alternation {
     MotionWarpResult result;
     result.path = dynamic_time_warp(warped_, clock_, settings_.limits, work_);
     result.rounds = 1;
+    work_.check();
     result.a = Series(warped_.frames, warped_.dims);
+    work_.check();
     result.b = Series(warped_.frames, warped_.dims);
     std::fill(result.a.values.begin(), result.a.values.end(), 1.0);
+    work_.check();
     result.energy.push_back(energy(result, result.path));
     if (!settings_.scale_and_offset) {
       result.settled = true;
@@ -56,8 +59,13 @@ class Alternation {
  private:
   WarpPath search(const MotionWarpResult& result) {
     Series shaped(warped_.frames, warped_.dims);
-    for (std::size_t i = 0; i < shaped.values.size(); ++i)
-      shaped.values[i] = warped_.values[i] * result.a.values[i] + result.b.values[i];
+    for (std::size_t d = 0; d < shaped.dims; ++d) {
+      work_.check();
+      const auto out = shaped.dim(d);
+      const auto s = warped_.dim(d);
+      const auto a = result.a.dim(d), b = result.b.dim(d);
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] = s[i] * a[i] + b[i];
+    }
     if (warped_.frames * clock_.frames < band_from_cells)
       return dynamic_time_warp(shaped, clock_, settings_.limits, work_);
     const WarpBand band{result.path, std::max<std::size_t>(256, warped_.frames / 16)};
