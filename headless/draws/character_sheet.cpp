@@ -108,7 +108,7 @@ Canvas draw_character(const Character& character, const std::string& title, int 
   }
   if (moves) color_by_displacement(looks, figure.posed(rest_pose_of(*character.skeleton)));
 
-  double wide = 0, high = 0, low = 1e300;  // metres
+  double wide = 0, high = -1e300, low = 1e300;  // metres
   for (const Look& look : looks) {
     wide += look.high.x - look.low.x;
     high = std::max(high, look.high.y);
