@@ -10,8 +10,10 @@ namespace {
 constexpr double between_columns = 70;
 constexpr double between_rows = 30;
 
+// A node, or the room that a wire takes in a column which it passes.
 struct Item {
   const SceneNode* node = nullptr;
+  double height = 14, width = 0;
   std::vector<int> before, after;  // indices of neighbours along the links
   int column = 0;
   double wish = 0, y = 0;
@@ -46,7 +48,36 @@ void find_columns(std::vector<Item>& items) {
 }
 
 double centre(const Item& item) {
-  return item.y + item.node->rect.height() / 2;
+  return item.y + item.height / 2;
+}
+
+// A wire over several columns goes past the nodes in between and not behind them.
+void make_room_for_wires(std::vector<Item>& items) {
+  const int nodes = static_cast<int>(items.size());
+  for (int from = 0; from < nodes; ++from) {
+    std::vector<int> after = items[std::size_t(from)].after;
+    std::sort(after.begin(), after.end());
+    after.erase(std::unique(after.begin(), after.end()), after.end());
+    for (int to : after) {
+      int before = from;
+      const int last = items[std::size_t(to)].column;
+      for (int column = items[std::size_t(from)].column + 1; column < last; ++column) {
+        Item room;
+        room.column = column;
+        room.wish = (centre(items[std::size_t(from)]) + centre(items[std::size_t(to)])) / 2;
+        room.before = {before};
+        items.push_back(room);
+        const int made = static_cast<int>(items.size()) - 1;
+        std::replace(items[std::size_t(before)].after.begin(), items[std::size_t(before)].after.end(), to,
+                     made);
+        items[std::size_t(made)].after = {to};
+        before = made;
+      }
+      if (before != from)
+        std::replace(items[std::size_t(to)].before.begin(), items[std::size_t(to)].before.end(), from,
+                     before);
+    }
+  }
 }
 
 // Puts a column's nodes in the order of their wishes, each as near to its wish as the others let it be.
@@ -55,7 +86,7 @@ void pack(std::vector<Item>& items, std::vector<int>& column) {
                    [&](int a, int b) { return items[std::size_t(a)].wish < items[std::size_t(b)].wish; });
   double total = 0, wished = 0;
   for (int i : column) {
-    total += items[std::size_t(i)].node->rect.height() + between_rows;
+    total += items[std::size_t(i)].height + between_rows;
     wished += items[std::size_t(i)].wish;
   }
   total -= between_rows;
@@ -63,7 +94,7 @@ void pack(std::vector<Item>& items, std::vector<int>& column) {
   for (int i : column) {
     Item& item = items[std::size_t(i)];
     item.y = y;
-    y += item.node->rect.height() + between_rows;
+    y += item.height + between_rows;
   }
 }
 
@@ -75,7 +106,8 @@ std::map<std::string, QPointF> arranged(const GraphScene& scene, const std::set<
   for (const SceneNode& node : scene.nodes())
     if (nodes.empty() || nodes.count(node.name)) {
       index[node.name] = static_cast<int>(items.size());
-      items.push_back({&node, {}, {}, 0, node.rect.center().y(), node.rect.top()});
+      items.push_back(
+          {&node, node.rect.height(), node.rect.width(), {}, {}, 0, node.rect.center().y(), node.rect.top()});
     }
   if (items.empty()) return {};
   for (const SceneWire& wire : scene.wires())
@@ -84,6 +116,7 @@ std::map<std::string, QPointF> arranged(const GraphScene& scene, const std::set<
       items[std::size_t(index[wire.to])].before.push_back(index[wire.from]);
     }
   find_columns(items);
+  make_room_for_wires(items);
   std::map<int, std::vector<int>> columns;
   for (std::size_t i = 0; i < items.size(); ++i) columns[items[i].column].push_back(static_cast<int>(i));
   for (auto& [number, column] : columns) pack(items, column);
@@ -116,15 +149,17 @@ std::map<std::string, QPointF> arranged(const GraphScene& scene, const std::set<
   }())
                                       : scene.bounds_of(nodes);
   double top = 1e300;
-  for (const Item& item : items) top = std::min(top, item.y);
+  for (const Item& item : items)
+    if (item.node) top = std::min(top, item.y);
   std::map<std::string, QPointF> positions;
   double x = before.left();
   for (const auto& [number, column] : columns) {
     double width = 0;
     for (int i : column) {
       const Item& item = items[std::size_t(i)];
+      if (!item.node) continue;
       positions[item.node->name] = QPointF(x, before.top() + item.y - top);
-      width = std::max(width, item.node->rect.width());
+      width = std::max(width, item.width);
     }
     x += width + between_columns;
   }

@@ -258,6 +258,7 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
       const QRectF still(8, box.height() - 8 - 1.15 * node.still.height(), box.width() - 16,
                          1.15 * node.still.height());
       words.setBottom(still.top());
+      words.setRight(box.right() - 16 / zoom);  // left of the state's dot
       draw_still(p, still, status ? status->still.get() : nullptr, theme);
       p.setPen(ink);
     }

@@ -17,6 +17,11 @@
 #include "gui/panels/files_panel.h"
 
 namespace kinegraph {
+namespace {
+
+constexpr int same_content = Qt::UserRole + 1;
+
+}  // namespace
 
 std::vector<MissingFile> missing_files(const Session& session) {
   std::vector<MissingFile> missing;
@@ -134,8 +139,10 @@ void RelinkDialog::add_found(int row, const QString& path, bool same) {
   choice->addItem(shown, path);
   choice->setItemData(choice->count() - 1, QDir::toNativeSeparators(path), Qt::ToolTipRole);
   choice->setItemText(0, tr("leave it missing"));
-  // The same content is surer than the same name.
-  if (choice->currentIndex() == 0 || same) choice->setCurrentIndex(choice->count() - 1);
+  choice->setItemData(choice->count() - 1, same, same_content);
+  // The same content is surer than the same name, and what is nearer is looked at first.
+  if (choice->currentIndex() == 0 || (same && !choice->currentData(same_content).toBool()))
+    choice->setCurrentIndex(choice->count() - 1);
   update_state();
 }
 

@@ -8,6 +8,7 @@
 
 #include "graph/edit.h"
 #include "graph/file/read.h"
+#include "gui/canvas/canvas_edits.h"
 #include "gui/window/changes_dialog.h"
 #include "tests/screenshots/shots.h"
 
@@ -26,10 +27,10 @@ const char* const every_port =
   "parts": {"type": "ICA", "params": {"components": 3}, "inputs": {"motions": ["walk.motion", "strut.motion"]}},
   "edit": {"type": "ComponentEdit", "inputs": {"components": "parts.components"}},
   "sparks": {"type": "Burst"},
-  "mesh": {"type": "MarkerMesh", "inputs": {"points": "sparks.points"}},
+  "rubber": {"type": "RubberJoints", "inputs": {"motion": "strut.motion"}},
   "figures": {"type": "Metrics", "inputs": {"motion": "feet.motion", "contacts": "feet.contacts"}},
-  "out": {"type": "Export", "params": {"file": "all.bvh"}, "inputs": {"motion": "edit.motion", "character": "mesh.character",
-    "metrics": "figures.metrics"}})";
+  "out": {"type": "Export", "params": {"file": "all.bvh"}, "inputs": {"motion": "edit.motion", "character": "rubber.character",
+    "points": "sparks.points", "metrics": "figures.metrics"}})";
 
 const char* const states = R"("long_walk": {"type": "Gait", "params": {"seconds": 400}},
   "long_sneak": {"type": "Gait", "params": {"seconds": 380, "gait": "sneak"}},
@@ -60,13 +61,13 @@ void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
     shot.take("window" + end);
   }
   {
-    Shot shot(theme, into, {1500, 900});
+    Shot shot(theme, into, {2200, 1250});
     shot.text(every_port);
     shot.wait(1500);
     shot.take_canvas("port_types" + end);
   }
   {
-    Shot shot(theme, into, {1400, 900});
+    Shot shot(theme, into, {1500, 1400});
     shot.text(states);
     shot.select("waiting");
     shot.canvas().frame_all();
@@ -101,6 +102,11 @@ void gestures(const Theme& theme, const QDir& into, const QString& end) {
     shot.press(Qt::Key_N);
     shot.type("Half as sneaky is enough.");
     shot.press(Qt::Key_Return, Qt::ControlModifier);
+    const std::string note = shot.session().document().ui.notes.begin()->first;
+    const QRectF all = shot.canvas().scene().bounds_of({"sneak", "style", "transfer"});
+    shot.session().perform([&](const Document& d, const Registry&) {
+      return place_note(d, note, QRectF(all.left(), all.bottom() + 60, 220, 60));
+    });
     shot.take_canvas("frame_and_note" + end);
     shot.select("transfer");
     shot.take_popup("colours" + end, [&] { shot.window.action("color")->trigger(); });
