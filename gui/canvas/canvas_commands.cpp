@@ -293,11 +293,13 @@ void GraphCanvas::walk(int dx, int dy) {
     for (const SceneNode& other : scene_.nodes())
       consider(&other, other.rect.left() + other.rect.top() * 0.1);
   } else if (dx) {
-    // The nearest in height of those linked there.
+    // The nearest of those linked there, sooner one at the same height.
     for (const SceneWire& wire : scene_.wires()) {
       if ((dx < 0 ? wire.to : wire.from) != node->name) continue;
       const SceneNode* other = scene_.node(dx < 0 ? wire.from : wire.to);
-      if (other) consider(other, std::abs(other->rect.center().y() - node->rect.center().y()));
+      if (!other) continue;
+      const QPointF way = other->rect.center() - node->rect.center();
+      consider(other, std::abs(way.y()) + 0.5 * std::abs(way.x()));
     }
   } else {
     for (const SceneNode& other : scene_.nodes()) {
