@@ -119,7 +119,8 @@ class Pairing {
       if (is_above_pelvis(j)) out_.source_of[j] = -1;
     std::vector<std::string> alone;
     for (int j = 0; j < target_.size(); ++j)
-      if (out_.source_of[j] < 0 && !is_above_pelvis(j)) alone.push_back(target_.joints[j].name);
+      if (out_.source_of[j] < 0 && !is_above_pelvis(j) && !is_between(j))
+        alone.push_back(target_.joints[j].name);
     if (!alone.empty())
       work.report(warning("no-partner", fmt::format("{} of the target's {} joints have no partner in the "
                                                     "motion and stay at rest: {}",
@@ -168,6 +169,12 @@ class Pairing {
     return std::count(body.spine.begin(), body.spine.end(), joint) > 0 ||
            std::count(body.neck.begin(), body.neck.end(), joint) > 0 || joint == body.head ||
            joint == body.pelvis;
+  }
+  // A joint of spine or neck below one with a partner shares in what that one does.
+  bool is_between(int j) const {
+    const Body& body = out_.target;
+    if (!is_middle(body, j) || j == body.head || j == body.pelvis) return false;
+    return std::any_of(out_.source_of.begin() + j + 1, out_.source_of.end(), [](int i) { return i >= 0; });
   }
   bool is_above_pelvis(int j) const {
     return j != out_.target_pelvis && target_.is_below(out_.target_pelvis, j);
