@@ -195,6 +195,9 @@ void keep_meshes_of_parts(GltfOut& out, const Character& character) {
 }
 
 std::vector<int> add_parts(GltfOut& out, const Character& character, const std::vector<int>& node_of_joint) {
+  // A joint's node has the scale of what stands above the root, which a Character's joints have not.
+  const double scale = 1 / character.skeleton->above_scale;
+  const Affine unscaled = affine({}, {}, {scale, scale, scale});
   for (const Skin& skin : character.skins) {
     Json::Object json;
     if (!skin.name.empty()) json["name"] = skin.name;
@@ -202,7 +205,7 @@ std::vector<int> add_parts(GltfOut& out, const Character& character, const std::
     std::vector<float> binds;
     for (std::size_t k = 0; k < skin.joints.size(); ++k) {
       joints.push_back(node_of_joint[at(skin.joints[k])]);
-      put_matrix(binds, skin.inverse_bind[k]);
+      put_matrix(binds, unscaled * skin.inverse_bind[k]);
     }
     json["joints"] = std::move(joints);
     json["inverseBindMatrices"] = out.add_floats(binds, "MAT4", false);
@@ -228,8 +231,8 @@ std::vector<int> add_parts(GltfOut& out, const Character& character, const std::
     node["mesh"] = p;
     if (part.skin >= 0) {
       node["skin"] = part.skin;
-    } else if (part.placed != Affine{}) {
-      const Decomposed placed = decomposed(part.placed);
+    } else if (const Affine map = part.joint >= 0 ? unscaled * part.placed : part.placed; map != Affine{}) {
+      const Decomposed placed = decomposed(map);
       node["translation"] = Json::Array{placed.move.x, placed.move.y, placed.move.z};
       node["rotation"] = Json::Array{placed.turned.x, placed.turned.y, placed.turned.z, placed.turned.w};
       node["scale"] = Json::Array{placed.scale.x, placed.scale.y, placed.scale.z};

@@ -9,6 +9,7 @@
 
 #include "nodes/files/motion_file.h"
 #include "nodes/motion/character.h"
+#include "tests/nodes/files/plain_files.h"
 #include "tests/nodes/time/other_bodies.h"
 
 namespace kinegraph {
@@ -116,6 +117,21 @@ TEST(Mannequin, is_what_this_makes) {
   std::ifstream in(path, std::ios::binary);
   const std::string kept((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   EXPECT_TRUE(kept == bytes) << "write it anew with KINEGRAPH_UPDATE_GOLDEN=1";
+}
+
+TEST(Mannequin, reads_back_with_every_vertex_in_its_place) {
+  Alone work;
+  PlainFiles files;
+  const std::string path = std::string(KINEGRAPH_SOURCE_DIR) + "/graphs/characters/mannequin.glb";
+  const MotionFile file = read_motion_file(path, {}, files, work);
+  const auto& read = dynamic_cast<const Character&>(*file.find("character"));
+  const Character made = mannequin();
+  const auto at_rest = [](const Character& character) {
+    return posed_vertices(character, character.parts[0], rest_pose_of(*character.skeleton));
+  };
+  const std::vector<Vec3> a = at_rest(read), b = at_rest(made);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t v = 0; v < a.size(); ++v) EXPECT_LT(norm(a[v] - b[v]), 1e-5);
 }
 
 TEST(Mannequin, stands_on_its_soles) {
