@@ -1,0 +1,46 @@
+// A motion in the frame in which it is decomposed: the root at the origin and, with `heading`, R_y(-ψ) taken
+// out; the joints of the space's skeleton, with its bone lengths and the motion's own directions.
+#pragma once
+#include <vector>
+
+#include "graph/work.h"
+#include "nodes/components/channels.h"
+#include "nodes/motion/encoded_root.h"
+
+namespace kinegraph {
+
+class DecomposedPose {
+ public:
+  // Both outlive this.
+  DecomposedPose(const ChannelSpace& space, const Motion& motion, Work& work);
+
+  // `joint`: of the space's skeleton, here and below. At rest where the motion lacks it. The root's rotation
+  // is ρ, in world, or in world as it stands.
+  Quat local(int joint, std::size_t t) const;
+  // From the parent to `joint`, in the parent's frame.
+  Vec3 link(int joint, std::size_t t) const;
+  // The motion's joint, or -1.
+  int joint(int of_space) const { return joint_of_[of_space]; }
+  const EncodedRoot& root() const { return root_; }
+  const Motion& motion() const { return motion_; }
+  bool heading() const { return space_.heading; }
+  // The space's joints with this motion's own bones.
+  const Skeleton& skeleton() const { return skeleton_; }
+
+ private:
+  const ChannelSpace& space_;
+  const Motion& motion_;
+  EncodedRoot root_;
+  std::vector<int> joint_of_;
+  Skeleton skeleton_;
+  std::vector<double> stretch_;  // the space's length of each link by the motion's
+};
+
+// Positions of all joints with the root at the origin, and orientations in world and local.
+struct RootedPose {
+  std::vector<Vec3> positions;
+  std::vector<Quat> world, local;
+};
+void rooted_pose(const DecomposedPose& motion, std::size_t t, RootedPose& pose);
+
+}  // namespace kinegraph
