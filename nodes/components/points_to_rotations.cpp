@@ -50,28 +50,75 @@ std::array<double, 4> largest_eigenvector(Matrix4 a) {
 
 }  // namespace
 
+namespace {
+
+// The same where the eigenvector is nearer to (1, 0, 0, 0) than to its opposite: (1, x) with
+// x = (λ - M)⁻¹ v for n = [n00 vᵀ; v M], λ by Newton's method on the secular equation λ = n00 + vᵀx. λ - M
+// being positive definite, no other eigenvalue is larger. False where that isn't so.
+bool leading_eigenvector(const Matrix4& n, Vec3& x) {
+  const Vec3 v{n[1][0], n[2][0], n[3][0]};
+  double lambda = n[0][0] + norm(v);
+  for (int round = 0; round < 12; ++round) {
+    // L D Lᵀ of λ - M.
+    const double d0 = lambda - n[1][1];
+    if (!(d0 > 0)) return false;
+    const double l10 = -n[2][1] / d0, l20 = -n[3][1] / d0;
+    const double d1 = lambda - n[2][2] - l10 * l10 * d0;
+    if (!(d1 > 0)) return false;
+    const double l21 = (-n[3][2] - l20 * l10 * d0) / d1;
+    const double d2 = lambda - n[3][3] - l20 * l20 * d0 - l21 * l21 * d1;
+    if (!(d2 > 0)) return false;
+    const double y1 = v.y - l10 * v.x, y2 = v.z - l20 * v.x - l21 * y1;
+    x.z = y2 / d2;
+    x.y = y1 / d1 - l21 * x.z;
+    x.x = v.x / d0 - l10 * x.y - l20 * x.z;
+    const double off = lambda - n[0][0] - dot(v, x), step = off / (1 + dot(x, x));
+    if (std::fabs(step) <= 1e-14 * std::fabs(lambda)) return dot(x, x) < 1e4;
+    lambda -= step;
+  }
+  return false;
+}
+
+}  // namespace
+
 Quat best_rotation(const std::vector<Vec3>& from, const std::vector<Vec3>& to, Quat prior) {
-  // S_ab = Σ from_a to_b. Three axes turned by the prior, with next to no weight, decide what collinear pairs
-  // leave open.
+  const Quat back = inverse(prior);
+  // All along one axis: that is aimed, and the turn about it is the prior's.
+  const Vec3 axis = from.empty() ? Vec3{} : from.front();
+  const double length = norm(axis);
+  if (length > 0 && std::all_of(from.begin(), from.end(),
+                                [&](Vec3 a) { return norm(cross(axis, a)) <= 1e-6 * length * norm(a); })) {
+    Vec3 aim;
+    for (std::size_t i = 0; i < from.size(); ++i) aim += dot(axis, from[i]) * to[i];
+    const double size = norm(aim);
+    if (size > 0)
+      return normalized(nearer(prior * smallest_turn(axis / length, rotate(back, aim / size)), prior));
+  }
+  // S_ab = Σ from_a to_b, seen from the prior, so that the rotation wanted is a small one. The axes
+  // themselves, with next to no weight, decide what collinear pairs leave open.
   double s[3][3] = {};
   double size = 0;
-  const auto add = [&](Vec3 a, Vec3 b, double weight) {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) s[i][j] += weight * a[i] * b[j];
-  };
   for (std::size_t i = 0; i < from.size(); ++i) {
-    add(from[i], to[i], 1);
-    size += norm(from[i]) * norm(to[i]);
+    const Vec3 a = from[i], b = rotate(back, to[i]);
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column) s[row][column] += a[row] * b[column];
+    size += norm(a) * norm(b);
   }
-  for (Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
-    add(axis, rotate(prior, axis), 1e-10 * size);
+  for (int i = 0; i < 3; ++i) s[i][i] += 1e-10 * size;
   // Horn's matrix; its largest eigenvector is the quaternion (w, x, y, z).
-  Matrix4 n{{{s[0][0] + s[1][1] + s[2][2], s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]},
-             {s[1][2] - s[2][1], s[0][0] - s[1][1] - s[2][2], s[0][1] + s[1][0], s[2][0] + s[0][2]},
-             {s[2][0] - s[0][2], s[0][1] + s[1][0], -s[0][0] + s[1][1] - s[2][2], s[1][2] + s[2][1]},
-             {s[0][1] - s[1][0], s[2][0] + s[0][2], s[1][2] + s[2][1], -s[0][0] - s[1][1] + s[2][2]}}};
-  const auto q = largest_eigenvector(n);
-  return normalized(nearer(Quat{q[1], q[2], q[3], q[0]}, prior));
+  const Matrix4 n{{{s[0][0] + s[1][1] + s[2][2], s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]},
+                   {s[1][2] - s[2][1], s[0][0] - s[1][1] - s[2][2], s[0][1] + s[1][0], s[2][0] + s[0][2]},
+                   {s[2][0] - s[0][2], s[0][1] + s[1][0], -s[0][0] + s[1][1] - s[2][2], s[1][2] + s[2][1]},
+                   {s[0][1] - s[1][0], s[2][0] + s[0][2], s[1][2] + s[2][1], -s[0][0] - s[1][1] + s[2][2]}}};
+  Quat turn{0, 0, 0, 1};
+  Vec3 x;
+  if (leading_eigenvector(n, x)) {
+    turn = normalized(Quat{x.x, x.y, x.z, 1});
+  } else {
+    const auto q = largest_eigenvector(n);
+    turn = {q[1], q[2], q[3], q[0]};
+  }
+  return normalized(nearer(prior * turn, prior));
 }
 
 PointsToRotations::PointsToRotations(const Skeleton& skeleton, const std::vector<bool>& known,
