@@ -1,0 +1,106 @@
+// The cartoon graphs of tests/cartoon on real clips, run by the real program and judged on what they export.
+#include "nodes/feet/detect_contacts.h"
+#include "nodes/files/motion_file.h"
+#include "nodes/motion/kinematics.h"
+#include "tests/headless/program.h"
+#include "tests/mocap.h"
+#include "tests/nodes/files/plain_files.h"
+
+namespace kinegraph {
+namespace {
+
+constexpr const char* every_graph[] = {"walk",  "run",        "kick",   "dance",    "boxing",
+                                       "fig14", "cesium_man", "knight", "cmu_body", "chain"};
+
+class CartoonGraphs : public ProgramTest {
+ protected:
+  Ran run_graph(const std::string& name) {
+    return run({"run", std::string(KINEGRAPH_SOURCE_DIR) + "/tests/cartoon/" + name + ".kg.json", "--var",
+                "mocap=" + mocap(), "--out", path("out"), "--progress", "none"});
+  }
+  MotionFile exported(const std::string& file) {
+    PlainFiles files;
+    Alone work;
+    return read_motion_file(path("out/" + file), {}, files, work);
+  }
+};
+
+TEST_F(CartoonGraphs, RunAndExportSubJointsThatStretch) {
+  KINEGRAPH_NEEDS_MOCAP();
+  for (const std::string name : every_graph) {
+    const Ran ran = run_graph(name);
+    ASSERT_EQ(ran.exit, 0) << name << "\n" << ran.err;
+    const bool skinned = exists("out/" + name + ".glb");
+    const MotionFile file = exported(name + (skinned ? ".glb" : ".bvh"));
+    ASSERT_TRUE(file.motion()) << name;
+    const Motion& motion = *file.motion();
+    EXPECT_GT(motion.joints(), 50) << name;
+    int stretching = 0;
+    for (int j = 1; j < motion.joints(); ++j) stretching += motion.translates(j);
+    EXPECT_GT(stretching, 30) << name;
+    EXPECT_EQ(file.find("character") != nullptr, skinned) << name;
+  }
+}
+
+TEST_F(CartoonGraphs, BoxingHitsItsTargetWhileFeetStandWhereTheyStood) {
+  KINEGRAPH_NEEDS_MOCAP();
+  ASSERT_EQ(run_graph("boxing").exit, 0);
+  const MotionFile file = exported("boxing.bvh");
+  const Motion& motion = *file.motion();
+  const WorldMotion world = world_motion(motion);
+  const int fist = motion.skeleton().find("lhand");
+  for (std::size_t t = 66; t < 76; ++t)
+    EXPECT_LT(norm(world.position(fist)[t] - Vec3{-0.99, 1.36, 0.86}), 1e-3) << t;
+  // What stands in the clip stands still.
+  ReadOptions options;
+  options.range = {200, 500};
+  PlainFiles files;
+  Alone work;
+  const MotionFile source = read_motion_file(mocap("cmu/asfamc/17_10.amc"), options, files, work);
+  int planted = 0;
+  for (const FootPoint& point : detect_contacts(*source.motion(), {}, work).points) {
+    const int joint = motion.skeleton().find(point.joint_name);
+    for (std::size_t t = 1; t < motion.frames(); ++t) {
+      if (!point.planted[t - 1] || !point.planted[t]) continue;
+      ++planted;
+      ASSERT_LT(norm(point_at(world, joint, point.local, t) - point_at(world, joint, point.local, t - 1)),
+                1e-3)
+          << point.joint_name << " " << t;
+    }
+  }
+  EXPECT_GT(planted, 20);
+}
+
+TEST_F(CartoonGraphs, GiveMotionsThatPictureCompareAndMetricsTake) {
+  KINEGRAPH_NEEDS_MOCAP();
+  ASSERT_EQ(run_graph("walk").exit, 0);
+  ASSERT_EQ(run({"picture", path("out/walk.bvh"), "-o", path("walk.svg"), "--progress", "none"}).exit, 0);
+  EXPECT_THAT(read("walk.svg"), testing::HasSubstr("stretched"));
+  const Ran same = run({"compare", path("out/walk.bvh"), path("out/walk.bvh")});
+  EXPECT_EQ(same.exit, 0);
+  EXPECT_THAT(same.out, testing::HasSubstr("identical"));
+  // Through another six-channel BVH and back: no joint moves by over a micrometre.
+  write("again.kg.json", graph(R"("clip": {"type": "Load", "params": {"file": "out/walk.bvh"}},
+    "bvh": {"type": "Export", "params": {"file": "again.bvh"}, "inputs": {"motion": "clip.motion"}},
+    "glb": {"type": "Export", "params": {"file": "again.glb"}, "inputs": {"motion": "clip.motion"}},
+    "judge": {"type": "Metrics", "inputs": {"motion": "clip.motion"}},
+    "numbers": {"type": "Export", "params": {"file": "numbers.json"}, "inputs": {"metrics": "judge.metrics"}})"));
+  const Ran again = run({"run", path("again.kg.json"), "--out", path("out"), "--progress", "none"});
+  ASSERT_EQ(again.exit, 0) << again.err;
+  EXPECT_TRUE(exists("out/numbers.json"));
+  const WorldMotion first = world_motion(*exported("walk.bvh").motion());
+  for (const char* file : {"again.bvh", "again.glb"}) {
+    const MotionFile other = exported(file);
+    const WorldMotion world = world_motion(*other.motion());
+    ASSERT_EQ(world.joints(), first.joints()) << file;
+    ASSERT_EQ(world.frames(), first.frames()) << file;
+    double worst = 0;
+    for (int j = 0; j < first.joints(); ++j)
+      for (std::size_t t = 0; t < first.frames(); ++t)
+        worst = std::max(worst, norm(world.position(j)[t] - first.position(j)[t]));
+    EXPECT_LT(worst, 1e-5) << file;
+  }
+}
+
+}  // namespace
+}  // namespace kinegraph
