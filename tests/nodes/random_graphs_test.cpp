@@ -73,7 +73,11 @@ TEST(RandomGraphs, AreValidButForWhatWasLeftOpen) {
                                           "bad-variable",
                                           "missing-key",
                                           "unknown-key",
-                                          "one-link"};
+                                          "one-link",
+                                          "several-inputs",
+                                          "wrong-content",
+                                          "nothing-to-write",
+                                          "unknown-format"};
   int whole = 0;
   for (int i = 0; i < 1000; ++i) {
     const Diagnostics problems = validate(
