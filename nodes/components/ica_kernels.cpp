@@ -53,7 +53,7 @@ void SubtractFromRow(const double* x, std::size_t count, double shift, double* o
 // multiplication; loads are what these loops have least of.
 template <class V>
 HWY_INLINE void KeepInRegister(V& v) {
-#if HWY_ARCH_X86 && HWY_COMPILER_GCC
+#if HWY_ARCH_X86 && HWY_COMPILER_GCC_ACTUAL
   asm("" : "+x"(v.raw));
 #else
   (void)v;

@@ -58,7 +58,7 @@ TEST(Key, TellsKindsOfParametersApart) {
                                     Json(Json::Array{}),
                                     Json(Json::Object{}),
                                     Json(Json::Array{0}),
-                                    Json(Json::Array{Json::Array{0}})};
+                                    Json(Json::Array(1, Json(Json::Array{0})))};
   for (const auto& value : values) keys.insert(key_of(value));
   EXPECT_EQ(keys.size(), values.size());
 }

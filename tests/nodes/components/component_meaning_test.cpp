@@ -118,7 +118,7 @@ TEST(ComponentMeaningNode, LeavesEmotionOpenForASingleClip) {
 
 TEST(ComponentMeaningNode, TellsWhatIsWrong) {
   NodeInMemory pairs(component_meaning_node()), regions(component_meaning_node());
-  pairs.link("components", three()).set("pairs", Json::Array{Json::Array{0, 5}});
+  pairs.link("components", three()).set("pairs", Json::Array(1, Json(Json::Array{0, 5})));
   EXPECT_EQ(pairs.refusal().code, "unknown-segment");
   regions.link("components", three()).set("regions", Json::Object{{"face", "nose"}});
   EXPECT_EQ(regions.refusal().code, "unknown-joint");

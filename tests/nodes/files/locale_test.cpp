@@ -11,13 +11,34 @@
 #include "tests/nodes/files/plain_files.h"
 #include "tests/nodes/motion/sample_motion.h"
 
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+#include <sanitizer/lsan_interface.h>
+#define KINEGRAPH_LEAKS_ARE_WATCHED
+#endif
+#endif
+
 namespace kinegraph {
 namespace {
+
+// glibc's own setlocale never frees the parts of LOCPATH.
+class LeaksOfTheSystem {
+ public:
+#ifdef KINEGRAPH_LEAKS_ARE_WATCHED
+  LeaksOfTheSystem() {
+    __lsan_disable();
+  }
+  ~LeaksOfTheSystem() {
+    __lsan_enable();
+  }
+#endif
+};
 
 class GermanLocale {
  public:
   GermanLocale() : folder_(german_locale_path()) {
     if (folder_.empty()) return;
+    [[maybe_unused]] const LeaksOfTheSystem unwatched;
     setenv("LOCPATH", folder_.c_str(), 1);
     set_ = std::setlocale(LC_ALL, "de_DE.UTF-8") != nullptr && *std::localeconv()->decimal_point == ',';
     if (set_) before_ = std::locale::global(std::locale("de_DE.UTF-8"));
