@@ -2,8 +2,10 @@
 // clips are to be had. Judged on the files it wrote, by measures of its own.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "exported.h"
 #include "independent_measures.h"
@@ -93,6 +95,13 @@ TEST_P(MainJob, KeepsTheHeading) {
 }
 
 TEST_P(MainJob, HoldsPlantedPoints) {
+  const bool plants =
+      std::any_of(contacts_->points.begin(), contacts_->points.end(), [](const FootPoint& point) {
+        return std::any_of(point.planted.begin(), point.planted.end(), [](auto planted) { return planted; });
+      });
+  // No point of the run 16_45 rests for DetectContacts' 0.1 s: docs/wu_table_1.md.
+  ASSERT_EQ(plants, std::string_view(GetParam()) != "stride_run");
+  if (!plants) GTEST_SKIP() << "no plant is found in this clip, so there is nothing to hold";
   EXPECT_LT(independent::farthest_from_plants(*result_, *contacts_), 1e-3)
       << "m, largest distance of a planted point from where it is planted";
 }

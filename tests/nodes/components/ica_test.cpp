@@ -282,7 +282,7 @@ TEST(IcaOfPoints, RefusesGapsAndOtherLabels) {
   EXPECT_EQ(mixed.refusal().code, "mixed-inputs");
 }
 
-TEST(IcaOfRealClips, AgreesOnTheRankKErrorAndReturns) {
+TEST(IcaOfRealClips, ComeBackFromAllTheirComponents) {
   KINEGRAPH_NEEDS_MOCAP();
   Alone work;
   const Clips clips = {real_clip("cmu/asfamc/16_31.amc"), real_clip("cmu/asfamc/17_03.amc")};
