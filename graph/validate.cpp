@@ -160,7 +160,8 @@ class Validator {
       problem(error("missing-file", fmt::format("there is no file {}", in_quotes(path)))
                   .hinting(file_hint(file)));
     else if (!fs::is_regular_file(status))
-      problem(error("not-a-regular-file", fmt::format("{} is no regular file", in_quotes(path))));
+      problem(error("not-a-regular-file", fmt::format("{} is no regular file", in_quotes(path)))
+                  .hinting("it is a folder or a device; name a file"));
   }
 
   static Diagnostic absolute_path(const std::string& path) {
@@ -220,7 +221,8 @@ class Validator {
     }
     std::vector<std::string> linked;
     for (const InputPort& port : type.inputs)
-      if (const auto inputs = node.inputs.find(port.name); inputs != node.inputs.end() && gives(inputs->second))
+      if (const auto inputs = node.inputs.find(port.name);
+          inputs != node.inputs.end() && gives(inputs->second))
         linked.push_back(port.name);
     for (Diagnostic& problem : type.misfits(Params(std::move(params)), linked)) {
       Place place = node.place;

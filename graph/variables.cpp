@@ -128,7 +128,8 @@ class Substitution {
         path += shortest_number(found->number());
       } else if (found) {
         add(error("bad-variable",
-                  fmt::format("variable {} is {} and can't stand in a path", name, name_of(found->kind()))),
+                  fmt::format("variable {} is {} and can't stand in a path", name, name_of(found->kind())))
+                .hinting("a string or a number can"),
             value, where);
       } else {
         path += text.substr(i, end + 1 - i);

@@ -76,8 +76,11 @@ Session::Session(const Program& program, const RunArguments& arguments, Opened o
                             .check_files = false,
                             .allow_outside = arguments.allow_outside,
                             .variables = variables});
+  auto given = variables;  // by the user: a batch's own are there whether a graph asks for them or not
+  if (!arguments.item.empty())
+    for (const char* own : {"item", "index"}) given.erase(own);
   if (!has_error(opened_.problems))
-    for (auto& unused : unused_variables(opened_, variables, arguments.sets)) problems_.push_back(unused);
+    for (auto& unused : unused_variables(opened_, given, arguments.sets)) problems_.push_back(unused);
   if (opened_.document.read_only && !has_error(problems_))
     problems_.push_back(error("newer-schema", "a file of a newer schema can't be run")
                             .in_file(opened_.shown)

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -180,7 +182,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     to_token();
     const Place place = cursor_.place();
     if (static_cast<int>(open_.size()) == deepest_json) {
-      problem(error("too-deep", fmt::format("more than {} levels of lists and objects", deepest_json)),
+      problem(error("too-deep", fmt::format("more than {} levels of lists and objects", deepest_json))
+                  .hinting("no graph needs so many; is a bracket left open?"),
               place);
       return false;
     }
@@ -239,30 +242,68 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     const Place place = cursor_.place();
     const std::string_view rest = cursor_.rest();
     if (rest.empty())
-      return problem(error("syntax", text_.empty() ? "the file is empty" : "the file ends too early")
-                         .hinting(open_.empty() ? "" : "a } or ] is missing"),
-                     place);
+      return problem(
+          error("syntax", text_.empty() ? "the file is empty" : "the file ends too early")
+              .hinting(open_.empty() ? R"(the least a graph holds is {"format": "kinegraph", "schema": 1})"
+                                     : "a } or ] is missing"),
+          place);
     if (rest.starts_with("//") || rest.starts_with("/*") || rest.starts_with("#"))
       return problem(error("comment", "JSON has no comments").hinting("a node's \"note\" holds text"), place);
     for (const char* word :
          {"NaN", "nan", "Infinity", "-Infinity", "+Infinity", "inf", "-inf", "Inf", "-NaN"})
       if (rest.starts_with(word))
-        return problem(error("not-finite", fmt::format("{} is no number a graph can hold", word)), place);
+        return problem(error("not-finite", fmt::format("{} is no number a graph can hold", word))
+                           .hinting("leave the parameter out for its default"),
+                       place);
     if (rest.front() == '\'')
-      return problem(error("syntax", "a string stands in double quotes, not in single"), place);
+      return problem(
+          error("syntax", "a string stands in double quotes, not in single").hinting(R"(write " for each ')"),
+          place);
     if (rest.front() == '"') {
       if (explain_string()) return;
     } else if (is_number_character(rest.front())) {
       const std::string token(number_token());
       if (message.find("out_of_range") != std::string_view::npos)
-        return problem(error("not-finite", fmt::format("{} is too large for a number", token)), place);
+        return problem(error("not-finite", fmt::format("{} is too large for a number", token))
+                           .hinting("the largest is about 1.8e308"),
+                       place);
       if (message.find("invalid number") != std::string_view::npos || rest.front() == '+' ||
           rest.front() == '.')
         return bad_number(token);
     }
-    const std::size_t detail = message.find("syntax error ");
-    std::string_view said = detail == std::string_view::npos ? message : message.substr(detail + 13);
-    problem(error("syntax", std::string(said)), place);
+    problem(error("syntax", fmt::format("{} doesn't belong here", word_at(rest))).hinting(belongs(message)),
+            place);
+  }
+  // As much of what stands there as is told: a word, a whole short string, or one sign.
+  static std::string_view word_at(std::string_view rest) {
+    constexpr std::size_t longest = 24;
+    std::size_t length = 1;
+    if (rest.front() == '"') {
+      const std::size_t end = rest.find('"', 1);
+      if (end != std::string_view::npos && end < longest) length = end + 1;
+    } else {
+      const auto is_word = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.';
+      };
+      for (std::size_t i = 0; i < std::min(rest.size(), longest) && is_word(rest[i]); ++i) length = i + 1;
+    }
+    while (length < rest.size() && (static_cast<unsigned char>(rest[length]) & 0xC0) == 0x80) ++length;
+    return rest.substr(0, length);
+  }
+  // What the library was waiting for, as its message ends.
+  static std::string belongs(std::string_view message) {
+    const auto waits_for = [&](std::string_view what) {
+      const std::size_t at = message.rfind("expected ");
+      return at != std::string_view::npos && message.substr(at + 9).starts_with(what);
+    };
+    if (waits_for("end of input"))
+      return "the graph ends before it: remove what follows, or a bracket closes too early";
+    if (waits_for("string literal")) return "a name in double quotes belongs here";
+    if (waits_for("':'")) return "a : belongs between a name and its value";
+    if (waits_for("'}'")) return "a , before the next member, or a } is missing";
+    if (waits_for("']'")) return "a , before the next element, or a ] is missing";
+    return "a value belongs here: a string in double quotes, a number, true, false, null, a list or an "
+           "object";
   }
   // A string that never ends, or holds what it must not. False: it is whole, so it only stands in the wrong
   // place.

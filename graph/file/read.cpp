@@ -28,7 +28,9 @@ class Reader {
     const Json top = parse_json(text_, file_, result_.problems);
     if (top.is_null() && has_error(result_.problems)) return std::move(result_);
     if (!top.is_object()) {
-      add(error("not-a-graph", fmt::format("the file holds {}", name_of(top.kind()))), top.place);
+      add(error("not-a-graph", fmt::format("the file holds {}", name_of(top.kind())))
+              .hinting(R"(a graph starts with {"format": "kinegraph", "schema": 1)"),
+          top.place);
       return std::move(result_);
     }
     const Json* format = top.find("format");

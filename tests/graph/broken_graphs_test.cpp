@@ -50,33 +50,41 @@ std::string deep(int levels) {
 
 const Mistake mistakes[] = {
     // What JSON itself doesn't allow.
-    {"EmptyFile", "", "syntax", 1, "", "", "", ""},
+    {"EmptyFile", "", "syntax", 1, "", "", "", "kinegraph"},
     {"EndsEarly", "{\"format\": \"kinegraph\",\n \"schema\": 1", "syntax", 2, "", "", "", "missing"},
     {"TrailingComma", nodes("\"a\": {\"type\": \"Load\",\n}"), "trailing-comma", 2, ",", "", "", "remove"},
     {"Comment", nodes("// the walk\n" + walk), "comment", 2, "//", "", "", "note"},
-    {"SingleQuotes", nodes("'a': {}"), "syntax", 2, "'a'", "", "", ""},
+    {"SingleQuotes", nodes("'a': {}"), "syntax", 2, "'a'", "", "", "write \""},
     {"NotANumber", nodes(R"("a": {"type": "Load", "params": {"fps": NaN}})"), "not-finite", 2, "NaN", "", "",
-     ""},
+     "default"},
     {"MinusInfinity", nodes(R"("a": {"type": "Load", "params": {"fps": -Infinity}})"), "not-finite", 2,
-     "-Infinity", "", "", ""},
+     "-Infinity", "", "", "default"},
     {"TooLargeANumber", nodes(R"("a": {"type": "Load", "params": {"fps": 1e999}})"), "not-finite", 2, "1e999",
-     "", "", ""},
+     "", "", "1.8e308"},
     {"LeadingZero", nodes(R"("a": {"type": "Load", "params": {"fps": 012}})"), "bad-number", 2, "012", "", "",
      "0.5"},
     {"NoDigitBeforeThePoint", nodes(R"("a": {"type": "Load", "params": {"fps": .5}})"), "bad-number", 2, ".5",
      "", "", "0.5"},
-    {"Unquoted", nodes("a: {}"), "syntax", 2, "a", "", "", ""},
+    {"Unquoted", nodes("a: {}"), "syntax", 2, "a", "", "", "a name in double quotes"},
+    {"NoCommaBetween", nodes("\"a\": {}\n\"b\": {}"), "syntax", 3, "\"b\"", "", "",
+     "a , before the next member"},
+    {"NoColon", nodes("\"a\" {}"), "syntax", 2, "{", "", "", "a : belongs"},
+    {"NoCommaInAList", nodes(R"("a": {"type": "Load", "params": {"range": [1 2]}})"), "syntax", 2, "2", "",
+     "", "a , before the next element"},
+    {"NoValue", nodes(R"("a": {"type": }, "b": {})"), "syntax", 2, "}", "", "", "a value belongs here"},
     {"BrokenEscape", nodes(R"("a": {"type": "C:\walk"})"), "syntax", 2, "\\walk", "", "", "forward slashes"},
-    {"LoneSurrogate", nodes(R"("a": {"type": "\ud800"})"), "syntax", 2, "\\ud800", "", "", ""},
+    {"LoneSurrogate", nodes(R"("a": {"type": "\ud800"})"), "syntax", 2, "\\ud800", "", "", "\\\\"},
     {"StringOverTwoLines", nodes("\"a\": {\"note\": \"one\ntwo\"}"), "syntax", 2, "\"one", "", "", "\\n"},
-    {"TwoCommas", nodes(R"("a": {"type": "Load",, "note": ""})"), "syntax", 2, ",", "", "", ""},
-    {"TwoDocuments", "{\"format\": \"kinegraph\", \"schema\": 1}\n{}", "syntax", 2, "{", "", "", ""},
+    {"TwoCommas", nodes(R"("a": {"type": "Load",, "note": ""})"), "syntax", 2, ",", "", "",
+     "a name in double quotes"},
+    {"TwoDocuments", "{\"format\": \"kinegraph\", \"schema\": 1}\n{}", "syntax", 2, "{", "", "",
+     "remove what follows"},
     {"BadUtf8", nodes("\"a\": {\"type\": \"Load\", \"note\": \"\xC3\x28\"}"), "bad-utf8", 2, "\xC3", "", "",
      "UTF-8"},
     {"OverlongUtf8", nodes("\"a\": {\"type\": \"Load\", \"note\": \"\xC0\xAF\"}"), "bad-utf8", 2, "\xC0", "",
      "", "UTF-8"},
     {"ByteOrderMark", "\xEF\xBB\xBF{}", "byte-order-mark", 1, "\xEF\xBB\xBF{", "", "", "UTF-8"},
-    {"TooDeep", deep(65), "too-deep", 2, "[", "", "", ""},
+    {"TooDeep", deep(65), "too-deep", 2, "[", "", "", "bracket"},
     {"ConflictMarkers", nodes("<<<<<<< ours\n" + walk + "\n=======\n" + walk + "\n>>>>>>> theirs"),
      "conflict-markers", 2, "<<<<<<<", "", "", "merge"},
     {"DuplicateKey", nodes(R"("a": {"type": "Load",
@@ -264,7 +272,7 @@ const Mistake mistakes[] = {
     {"VariableThatIsNoTextInAPath",
      nodes(R"("a": {"type": "Load", "params": {"file": "clips/${clip}.bvh"}})",
            R"(, "variables": {"clip": [1]})"),
-     "bad-variable", 2, "\"clips/${clip}.bvh\"", "a", "file", ""},
+     "bad-variable", 2, "\"clips/${clip}.bvh\"", "a", "file", "a number can"},
     {"VariableOutOfRange",
      nodes(R"("a": {"type": "Load", "params": {"fps": "${rate}"}})", R"(, "variables": {"rate": 2000})"),
      "out-of-range", 2, "\"${rate}\"", "a", "fps", "0 to 1000"},
@@ -420,6 +428,7 @@ TEST_P(BrokenGraph, IsToldWhatIsWrongAndWhere) {
   EXPECT_TRUE(mistake.at.empty() ? at.empty() : at.starts_with(mistake.at)) << to_text(*found);
   EXPECT_EQ(found->node, mistake.node) << to_text(*found);
   EXPECT_EQ(found->port.empty() ? found->param : found->port, mistake.part) << to_text(*found);
+  EXPECT_FALSE(found->hint.empty()) << to_text(*found);
   EXPECT_NE(found->hint.find(mistake.hint), std::string::npos) << to_text(*found);
   EXPECT_FALSE(found->message.empty());
   EXPECT_EQ(found->file, "g.kg.json");

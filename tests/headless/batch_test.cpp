@@ -42,6 +42,7 @@ TEST_F(BatchTest, EveryClipGetsAFolderOfItsOwn) {
   Ran ran = batch({"--report", "report.json"});
   EXPECT_EQ(ran.exit, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("3 items: 3 done"));
+  EXPECT_EQ(ran.err, "") << "item and index are the batch's own: nobody is warned that they are not used";
   EXPECT_TRUE(exists("done/a/smooth.bvh"));
   EXPECT_TRUE(exists("done/more/c/smooth.bvh"));
   EXPECT_TRUE(exists("done/.kinegraph/more/c.json"));
