@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "nodes/files/decimal.h"
+#include "nodes/files/number_row.h"
 #include "nodes/files/text_place.h"
 
 namespace kinegraph {
@@ -18,13 +20,17 @@ constexpr std::size_t most_frames_a_block = 64;
 class Reader {
  public:
   Reader(std::string_view text, const char* from, std::size_t channels, Work& work)
-      : text_(text), at_(from), end_(text.data() + text.size()), channels_(channels), work_(work) {}
+      : text_(text), at_(from), end_(text.data() + text.size()), channels_(channels), work_(work), row_(channels) {}
 
   const char* at() const { return at_; }
 
   // One frame's numbers; false when the text ends before its first.
   bool read_frame(double* out) {
     if (!skip_empty_lines()) return false;
+    if (const char* stop = row_.read(at_, end_, out)) {
+      at_ = stop;
+      return true;
+    }
     const char* line = at_;
     std::size_t count = 0;
     for (;;) {
@@ -121,6 +127,7 @@ class Reader {
   std::size_t channels_;
   Work& work_;
   bool glued_ = false;
+  NumberRow row_;
 };
 
 // rows x columns, row after row -> column after column in `out`, whose columns are `stride` apart.
