@@ -35,6 +35,21 @@ struct Kinds {
   std::uint64_t blank, line_end, digit, point, minus;
 };
 
+#if HWY_TARGET == HWY_SCALAR  // lanes of one byte
+HWY_INLINE Kinds kinds_of(const char* at) {
+  Kinds kinds{};
+  for (std::size_t i = 0; i < block; ++i) {
+    const char c = at[i];
+    const auto bit = [&](bool is) { return static_cast<std::uint64_t>(is) << i; };
+    kinds.blank |= bit(c == ' ' || c == '\t');
+    kinds.line_end |= bit(c == '\n' || c == '\r');
+    kinds.digit |= bit(c >= '0' && c <= '9');
+    kinds.point |= bit(c == '.');
+    kinds.minus |= bit(c == '-');
+  }
+  return kinds;
+}
+#else
 HWY_INLINE Kinds kinds_of(const char* at) {
   const hn::CappedTag<std::uint8_t, block> d;
   std::uint8_t bits[5][block / 8];
@@ -53,6 +68,7 @@ HWY_INLINE Kinds kinds_of(const char* at) {
   std::memcpy(words, bits, sizeof words);
   return {words[0], words[1], words[2], words[3], words[4]};
 }
+#endif
 
 // Appends where bits are set, by fours: what follows the last is overwritten later.
 HWY_INLINE void append(std::uint64_t bits, std::uint32_t from, std::size_t more, std::uint32_t* to) {
