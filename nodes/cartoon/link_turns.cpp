@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "nodes/motion/elementary.h"
+#include "nodes/motion/track_kernels.h"
 
 namespace kinegraph {
 namespace {
@@ -13,21 +14,22 @@ namespace {
 constexpr double hold_to_identity = 0.005;  // of the links' squared length, about each axis
 constexpr double zero_link = 1e-6;          // of the height
 
+constexpr double one_direction = 1 - 4e-15;  // of the trace of a square
+
 using Matrix4 = std::array<std::array<double, 4>, 4>;
 
-// The square of a symmetric matrix, brought to trace 1.
-Matrix4 squared(const Matrix4& m) {
+// Squares a symmetric matrix and brings it to trace 1. Returns the trace of the square of one of trace 1: 1
+// where it has one direction.
+double squared(Matrix4& m) {
+  const double before = m[0][0] + m[1][1] + m[2][2] + m[3][3];
   Matrix4 out;
-  for (int r = 0; r < 4; ++r) {
-    for (int c = r; c < 4; ++c) {
+  for (int r = 0; r < 4; ++r)
+    for (int c = r; c < 4; ++c)
       out[r][c] = m[r][0] * m[c][0] + m[r][1] * m[c][1] + m[r][2] * m[c][2] + m[r][3] * m[c][3];
-      out[c][r] = out[r][c];
-    }
-  }
-  const double trace = out[0][0] + out[1][1] + out[2][2] + out[3][3];
-  for (auto& row : out)
-    for (double& value : row) value /= trace;
-  return out;
+  const double trace = out[0][0] + out[1][1] + out[2][2] + out[3][3], inverse = 1 / trace;
+  for (int r = 0; r < 4; ++r)
+    for (int c = r; c < 4; ++c) m[r][c] = m[c][r] = inverse * out[r][c];
+  return trace / (before * before);
 }
 
 }  // namespace
@@ -43,15 +45,16 @@ Quat best_turn(std::span<const Vec3> from, std::span<const Vec3> to) {
   if (!(size > 0)) return {};
   for (int i = 0; i < 3; ++i) s[i][i] += hold_to_identity * size;
   const double bound = (1 + 3 * hold_to_identity) * size;  // of the largest eigenvalue's size
-  // Horn's matrix, rows w x y z; its dominant eigenvector is the rotation. Shifted to be positive, squared
-  // ten times: all but that direction fades by the 4096th power.
+  // Horn's matrix, rows w x y z; its dominant eigenvector is the rotation. Shifted to be positive and squared
+  // until nothing but that direction is left: by the 4096th power at the latest.
   Matrix4 n;
   n[0] = {s[0][0] + s[1][1] + s[2][2], s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]};
   n[1] = {n[0][1], s[0][0] - s[1][1] - s[2][2], s[0][1] + s[1][0], s[2][0] + s[0][2]};
   n[2] = {n[0][2], n[1][2], s[1][1] - s[0][0] - s[2][2], s[1][2] + s[2][1]};
   n[3] = {n[0][3], n[1][3], n[2][3], s[2][2] - s[0][0] - s[1][1]};
   for (int i = 0; i < 4; ++i) n[i][i] += bound;
-  for (int round = 0; round < 12; ++round) n = squared(n);
+  for (int round = 0; round < 12; ++round)
+    if (squared(n) > one_direction) break;
   int largest = 0;
   for (int i = 1; i < 4; ++i)
     if (n[i][i] > n[largest][largest]) largest = i;
@@ -128,26 +131,32 @@ void aim_branch(std::span<const Vec3> axes, ConstVec3Track old_at, std::span<con
 void aim_link(Vec3 axis, ConstVec3Track old_from, ConstVec3Track old_to, ConstVec3Track from,
               ConstVec3Track to, ConstQuatTrack old, const TurnLimits& limits, QuatTrack out) {
   const std::size_t frames = out.w.size();
-  std::vector<Quat> turned(frames);
-  const double quick_turn = cosine(0.5 * limits.turn_departure);
-  bool flips = false;
-  for (std::size_t t = 0; t < frames; ++t) {
-    turned[t] = smallest_turn(old_to[t] - old_from[t], to[t] - from[t]);
-    flips = flips || (t > 0 && std::fabs(dot(turned[t - 1], turned[t])) < quick_turn);
-  }
-  if (flips) {
+  std::vector<double> room(4 * frames);
+  const auto series = [&](std::size_t n) { return std::span(room).subspan(n * frames, frames); };
+  const QuatTrack turned{series(0), series(1), series(2), series(3)};
+  const ConstQuatTrack as_turned{turned.x, turned.y, turned.z, turned.w};
+  const ConstQuatTrack as_out{out.x, out.y, out.z, out.w};
+  smallest_turns(old_from, old_to, from, to, turned);
+  if (next_step_below(as_turned, cosine(0.5 * limits.turn_departure), 1) < frames) {
+    std::vector<Quat> turns(frames);
     std::vector<double> most(frames);
-    for (std::size_t t = 1; t < frames; ++t) most[t] = limits.turn_departure + turn(old[t - 1], old[t]);
-    turned = with_turns_within(turned, most);
+    for (std::size_t t = 0; t < frames; ++t) {
+      turns[t] = turned[t];
+      if (t > 0) most[t] = limits.turn_departure + turn(old[t - 1], old[t]);
+    }
+    turns = with_turns_within(turns, most);
+    for (std::size_t t = 0; t < frames; ++t) turned.set(t, turns[t]);
   }
-  for (std::size_t t = 0; t < frames; ++t) out.set(t, normalized(turned[t] * old[t]));
+  multiply_tracks(as_turned, false, old, out);
   make_continuous(out.x, out.y, out.z, out.w);
   const HalfTwist most(limits.twist), departure(limits.twist_departure);
   // Most frames need no closer look: the rotation between input and result hardly changes.
   const double quick = cosine(0.25 * limits.twist_departure), quick_out = cosine(0.5 * limits.twist);
+  const auto next_quick = [&](std::size_t start) {
+    return std::min(next_step_below(as_turned, quick, start), next_step_below(as_out, quick_out, start));
+  };
   bool spins = false;
-  for (std::size_t t = 1; t < frames && !spins; ++t) {
-    if (dot(turned[t - 1], turned[t]) >= quick && dot(out[t - 1], out[t]) >= quick_out) continue;
+  for (std::size_t t = next_quick(1); t < frames && !spins; t = next_quick(t + 1)) {
     const HalfTwist is(inverse(out[t - 1]) * out[t], axis), input(inverse(old[t - 1]) * old[t], axis);
     spins = is.beyond(input).exceeds(departure) || (is.exceeds(most) && is.exceeds(input));
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nodes/cartoon/mass_spring_kernels.h"
+
 namespace kinegraph {
 namespace {
 
@@ -15,44 +17,90 @@ constexpr int most_repetitions = 40;
 constexpr double strongest_push = -0.3;
 constexpr int most_halvings = 8;
 
+// A number a particle, or three, apart by axis, so that a loop over links takes several at once.
+using Row = std::vector<double>;
+struct Axes {
+  Row x, y, z;
+  explicit Axes(std::size_t count) : x(count), y(count), z(count) {}
+  Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void set(std::size_t i, Vec3 v) {
+    x[i] = v.x;
+    y[i] = v.y;
+    z[i] = v.z;
+  }
+};
+
+// Inside, particles stand by their depth in the tree: neighbours in memory are on different limbs, so that a
+// sweep over the tree needn't end one before it takes up the next. First the roots, then the links' lower
+// ends.
 class Chain {
  public:
   Chain(const std::vector<int>& parents, const MassSpringParams& params)
-      : parents_(parents), params_(params) {
-    const std::size_t n = parents.size();
-    for (auto* list : {&x_, &v_, &u_, &right_, &free_, &to_parent_, &s_, &next_s_}) list->resize(n);
-    for (auto* list : {&r_, &next_r_, &length_, &next_length_, &diagonal_, &coupling_}) list->resize(n);
+      : params_(params), count_(parents.size()), order_(count_), parent_(count_) {
+    for (Axes* axes : {&x_, &v_, &u_, &right_, &free_, &s_, &next_s_, &to_parent_, &link_v_, &link_u_})
+      *axes = Axes(count_ + spring_room);
+    for (Row* row : {&r_, &next_r_, &reached_, &length_, &next_length_, &lengths_, &diagonal_, &coupling_,
+                     &pull_, &share_, &missed_, &push_, &along_, &answer_})
+      row->resize(count_ + spring_room);
+    std::vector<int> depth(count_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      order_[i] = i;
+      if (parents[i] < 0)
+        ++roots_;
+      else
+        depth[i] = depth[static_cast<std::size_t>(parents[i])] + 1;
+    }
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](std::size_t a, std::size_t b) { return depth[a] < depth[b]; });
+    std::vector<std::size_t> place(count_);
+    for (std::size_t i = 0; i < count_; ++i) place[order_[i]] = i;
+    for (std::size_t i = roots_; i < count_; ++i)
+      parent_[i] = place[static_cast<std::size_t>(parents[order_[i]])];
   }
 
   void start(std::span<const Vec3> s, std::span<const Vec3> velocity) {
-    std::copy(s.begin(), s.end(), s_.begin());
-    x_ = s_;
-    std::copy(velocity.begin(), velocity.end(), v_.begin());
-    for (std::size_t i = 0; i < s_.size(); ++i) {
-      if (parents_[i] < 0) continue;
-      length_[i] = r_[i] = norm(s_[i] - s_[parents_[i]]);
+    for (std::size_t i = 0; i < count_; ++i) {
+      s_.set(i, s[order_[i]]);
+      x_.set(i, s_[i]);
+      v_.set(i, velocity[order_[i]]);
+    }
+    for (std::size_t i = roots_; i < count_; ++i) {
+      length_[i] = r_[i] = norm(s_[i] - s_[parent_[i]]);
+      link_v_.set(i, v_[i] - v_[parent_[i]]);
     }
   }
 
-  std::vector<Vec3>& next_driven() { return next_s_; }
-  const std::vector<Vec3>& positions() const { return x_; }
-  const std::vector<Vec3>& velocities() const { return v_; }
+  void set_next_driven(std::span<const Vec3> s) {
+    for (std::size_t i = 0; i < count_; ++i) next_s_.set(i, s[order_[i]]);
+  }
+  void positions(std::span<Vec3> out) const {
+    for (std::size_t i = 0; i < count_; ++i) out[order_[i]] = x_[i];
+  }
+  void velocities(std::span<Vec3> out) const {
+    for (std::size_t i = 0; i < count_; ++i) out[order_[i]] = v_[i];
+  }
 
-  // One step of h seconds, to next_driven().
+  // One step of h seconds, to the next driven positions.
   void step(double h, int halvings = 0) {
     if (!solved(h, halvings == most_halvings)) {
-      const std::vector<Vec3> end = next_s_;
-      for (std::size_t i = 0; i < end.size(); ++i) next_s_[i] = 0.5 * (s_[i] + end[i]);
+      const Axes end = next_s_;
+      for (std::size_t i = 0; i < count_; ++i) next_s_.set(i, 0.5 * (s_[i] + end[i]));
       step(0.5 * h, halvings + 1);
       next_s_ = end;
       step(0.5 * h, halvings + 1);
       return;
     }
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-      x_[i] += h * u_[i];
-      v_[i] = 2 * u_[i] - v_[i];
-    }
-    std::swap(r_, next_r_);
+    const auto advance = [&](const Row& u, Row& x, Row& v, const Row& of_link, Row& v_of_link) {
+      for (std::size_t i = 0; i < count_; ++i) {
+        x[i] += h * u[i];
+        v[i] = 2 * u[i] - v[i];
+        v_of_link[i] = 2 * of_link[i] - v_of_link[i];
+      }
+    };
+    advance(u_.x, x_.x, v_.x, link_u_.x, link_v_.x);
+    advance(u_.y, x_.y, v_.y, link_u_.y, link_v_.y);
+    advance(u_.z, x_.z, v_.z, link_u_.z, link_v_.z);
+    std::swap(r_, reached_);
     std::swap(length_, next_length_);
     std::swap(s_, next_s_);
   }
@@ -60,80 +108,123 @@ class Chain {
  private:
   // Finds the mean velocities of a step; false: the step is too long for how squashed a link is.
   bool solved(double h, bool whatever) {
-    const std::size_t n = x_.size();
-    const Vec3 drag = (h * params_.drag) * (params_.drag_in_root ? (1 / h) * (next_s_[0] - s_[0]) : Vec3{});
-    for (std::size_t i = 0; i < n; ++i) {
-      free_[i] = 2 * v_[i] + (h * params_.hook) * (0.5 * ((s_[i] - x_[i]) + (next_s_[i] - x_[i]))) + drag;
-      if (parents_[i] < 0) continue;
-      const std::size_t p = parents_[i];
-      to_parent_[i] = x_[p] - x_[i];
-      next_length_[i] = norm(next_s_[i] - next_s_[p]);
-      // First guess of the new length: as the masses fly, their velocities changing as in the step before.
-      next_r_[i] = norm(h * ((2 * v_[i] - u_[i]) - (2 * v_[p] - u_[p])) - to_parent_[i]);
-    }
+    SpringStep step;
+    step.h = h;
+    step.link = params_.link;
+    step.own = 2 + h * params_.drag + 0.5 * h * h * params_.hook;
+    step.least = strongest_push / (0.5 * h * h);
+    step.exact = exact_enough;
+    prepare(h);
+    const SpringRows all = rows();
     for (int repetition = 0; repetition < most_repetitions; ++repetition) {
-      if (!solve(h) && !whatever) return false;
-      double change = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        if (parents_[i] < 0) continue;
-        const double r = norm(h * (u_[i] - u_[parents_[i]]) - to_parent_[i]);
-        const double moved = std::fabs(r - next_r_[i]) - exact_enough * (r + length_[i]);
-        change = moved > change ? moved : change;
-        next_r_[i] = r;
-      }
-      if (!(change > 0)) return true;
+      const bool within = spring_couplings(all, step) >= step.least;
+      if (!within && !whatever) return false;
+      solve(step.own);
+      if (!(spring_misses(all, step) > 0)) return true;
+      guess_again();
     }
     return whatever;
+  }
+
+  SpringRows rows() {
+    SpringRows all;
+    all.first = roots_;
+    all.end = count_;
+    const auto of = [](Axes& axes, auto* out) {
+      out[0] = axes.x.data();
+      out[1] = axes.y.data();
+      out[2] = axes.z.data();
+    };
+    of(to_parent_, all.to_parent);
+    of(link_u_, all.velocity);
+    of(free_, all.free);
+    of(right_, all.right);
+    all.r = r_.data();
+    all.lengths = lengths_.data();
+    all.next_r = next_r_.data();
+    all.reached = reached_.data();
+    all.missed = missed_.data();
+    all.push = push_.data();
+    all.share = share_.data();
+    all.coupling = coupling_.data();
+    all.pull = pull_.data();
+    all.diagonal = diagonal_.data();
+    return all;
+  }
+
+  // What stays the same through the repetitions, and the first guess of the new lengths.
+  void prepare(double h) {
+    const double of_hook = h * params_.hook;
+    const auto forces = [&](const Row& v, const Row& s, const Row& next, const Row& x, Row& out) {
+      const double drag = h * params_.drag * (params_.drag_in_root ? (1 / h) * (next[0] - s[0]) : 0.0);
+      for (std::size_t i = 0; i < count_; ++i)
+        out[i] = 2 * v[i] + of_hook * (0.5 * ((s[i] - x[i]) + (next[i] - x[i]))) + drag;
+    };
+    forces(v_.x, s_.x, next_s_.x, x_.x, free_.x);
+    forces(v_.y, s_.y, next_s_.y, x_.y, free_.y);
+    forces(v_.z, s_.z, next_s_.z, x_.z, free_.z);
+    // First guess of the new lengths: as the masses fly, their velocities changing as in the step before.
+    for (std::size_t i = roots_; i < count_; ++i) {
+      const std::size_t p = parent_[i];
+      const Vec3 to_parent = x_[p] - x_[i];
+      to_parent_.set(i, to_parent);
+      next_length_[i] = norm(next_s_[i] - next_s_[p]);
+      lengths_[i] = length_[i] + next_length_[i];
+      next_r_[i] = norm(h * (2 * link_v_[i] - link_u_[i]) - to_parent);
+      const double both = r_[i] * r_[p];
+      along_[i] = p >= roots_ && both > 0 ? dot(to_parent, to_parent_[p]) / both : 0;
+    }
   }
 
   // The mean velocities u over the step for the present guess of the new lengths:
   //   u_i (2 + h drag + h² hook/2) + Σ_n (h²/2) c_in (u_i − u_n)
   //     = 2 v_i + h [hook (s̄_i − x_i) + Σ_n c_in (x_n − x_i) + drag v_drag],  c = link (1 − 2 ℓ̄ / (r⁺ + r)).
   // Leaves to root, then back.
-  // False: a link's push was held to the strongest.
-  bool solve(double h) {
-    bool within = true;
-    const std::size_t n = x_.size();
-    const double half_square = 0.5 * h * h;
-    const double own = 2 + h * params_.drag + half_square * params_.hook;
-    std::fill(diagonal_.begin(), diagonal_.end(), own);
-    std::copy(free_.begin(), free_.end(), right_.begin());
-    for (std::size_t i = 0; i < n; ++i) {
-      if (parents_[i] < 0) continue;
-      const std::size_t p = parents_[i];
-      const double sum = next_r_[i] + r_[i];
-      double c = sum > 0 ? params_.link * (1 - (length_[i] + next_length_[i]) / sum) : 0;
-      if (half_square * c < strongest_push) {
-        c = strongest_push / half_square;
-        within = false;
-      }
-      coupling_[i] = half_square * c;
-      diagonal_[i] += coupling_[i];
-      diagonal_[p] += coupling_[i];
-      const Vec3 pull = (h * c) * to_parent_[i];
-      right_[i] += pull;
-      right_[p] -= pull;
+  void solve(double own) {
+    for (std::size_t i = 0; i < roots_; ++i) {
+      diagonal_[i] = own;
+      right_.set(i, free_[i]);
     }
-    for (std::size_t i = n; i-- > 0;) {
-      diagonal_[i] = 1 / diagonal_[i];
-      if (parents_[i] < 0) continue;
-      const std::size_t p = parents_[i];
-      const double factor = coupling_[i] * diagonal_[i];
-      diagonal_[p] -= coupling_[i] * factor;
-      right_[p] += factor * right_[i];
+    for (std::size_t i = count_; i-- > roots_;) {
+      const std::size_t p = parent_[i];
+      const double inverse = 1 / diagonal_[i], factor = coupling_[i] * inverse;
+      diagonal_[i] = inverse;
+      diagonal_[p] += coupling_[i] - coupling_[i] * factor;
+      right_.x[p] += factor * right_.x[i] - pull_[i] * to_parent_.x[i];
+      right_.y[p] += factor * right_.y[i] - pull_[i] * to_parent_.y[i];
+      right_.z[p] += factor * right_.z[i] - pull_[i] * to_parent_.z[i];
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      Vec3 value = right_[i];
-      if (parents_[i] >= 0) value += coupling_[i] * u_[parents_[i]];
-      u_[i] = diagonal_[i] * value;
+    for (std::size_t i = 0; i < roots_; ++i) u_.set(i, (1 / diagonal_[i]) * right_[i]);
+    for (std::size_t i = roots_; i < count_; ++i) {
+      const Vec3 above = u_[parent_[i]];
+      const Vec3 u = diagonal_[i] * (right_[i] + coupling_[i] * above);
+      u_.set(i, u);
+      link_u_.set(i, u - above);
     }
-    return within;
   }
 
-  const std::vector<int>& parents_;
+  // A link that turns out longer than guessed pulls more: half of what that takes back from its own length it
+  // adds to that of the links above and below, as far as they lie in one line. Newton's method with the
+  // links' own answers, its system solved by one round of Jacobi's.
+  void guess_again() {
+    std::copy(missed_.begin(), missed_.end(), answer_.begin());
+    for (std::size_t i = roots_; i < count_; ++i) {
+      const std::size_t p = parent_[i];
+      answer_[i] += share_[i] * (along_[i] * push_[p]);
+      answer_[p] += share_[p] * (along_[i] * push_[i]);
+    }
+    for (std::size_t i = roots_; i < count_; ++i) next_r_[i] = std::max(next_r_[i] + answer_[i], 0.0);
+  }
+
   const MassSpringParams& params_;
-  std::vector<Vec3> x_, v_, u_, right_, free_, to_parent_, s_, next_s_;
-  std::vector<double> r_, next_r_, length_, next_length_, diagonal_, coupling_;
+  std::size_t count_, roots_ = 0;
+  std::vector<std::size_t> order_;   // outside number of each particle
+  std::vector<std::size_t> parent_;  // of a link's lower end
+  Axes x_{0}, v_{0}, u_{0}, right_{0}, free_{0}, s_{0}, next_s_{0};
+  Axes to_parent_{0}, link_v_{0}, link_u_{0};  // lower end less upper
+  Row r_, next_r_, reached_, length_, next_length_, lengths_;
+  Row diagonal_, coupling_, pull_, share_, missed_, push_, answer_;
+  Row along_;  // cosine between a link and the one above it
 };
 
 // The driven particles between two frames: a C1 cubic (Catmull-Rom), continued by odd reflection at the ends.
@@ -156,8 +247,8 @@ class Driven {
       out[i] = here + (before * to_before + next * (there - here) + after * to_after);
     }
   }
-  void at_frame(std::size_t frame, std::vector<Vec3>& out) const {
-    for (std::size_t i = 0; i < path_.particles; ++i) out[i] = at(frame, i);
+  std::span<const Vec3> at_frame(std::size_t frame) const {
+    return std::span(path_.at).subspan(frame * path_.particles, path_.particles);
   }
 
  private:
@@ -184,31 +275,33 @@ MassSpringResult simulate(const std::vector<int>& parents, const ParticlePath& d
   if (driven.frames() == 0) return result;
   const Driven path(driven);
   Chain chain(parents, params);
-  std::vector<Vec3> start(driven.particles), velocity(driven.particles);
-  path.at_frame(0, start);
+  std::vector<Vec3> velocity(driven.particles), between(driven.particles);
   for (std::size_t i = 0; i < driven.particles; ++i) velocity[i] = path.velocity_at_start(i, fps);
-  chain.start(start, velocity);
-  const auto keep = [&] {
-    auto& at = result.positions.at;
-    at.insert(at.end(), chain.positions().begin(), chain.positions().end());
-    if (!with_velocities) return;
-    result.velocities.at.insert(result.velocities.at.end(), chain.velocities().begin(),
-                                chain.velocities().end());
+  chain.start(path.at_frame(0), velocity);
+  result.positions.at.resize(driven.at.size());
+  if (with_velocities) result.velocities.at.resize(driven.at.size());
+  const auto keep = [&](std::size_t frame) {
+    const auto of = [&](ParticlePath& all) {
+      return std::span(all.at).subspan(frame * driven.particles, driven.particles);
+    };
+    chain.positions(of(result.positions));
+    if (with_velocities) chain.velocities(of(result.velocities));
   };
-  result.positions.at.reserve(driven.at.size());
-  keep();
+  keep(0);
   const int steps = steps_of_a_frame(params, fps);
   const double h = 1 / (fps * steps);
   for (std::size_t frame = 0; frame + 1 < driven.frames(); ++frame) {
     for (int step = 1; step <= steps; ++step) {
       if (step % 64 == 1) work.check();
-      if (step < steps)
-        path.between(frame, static_cast<double>(step) / steps, chain.next_driven());
-      else
-        path.at_frame(frame + 1, chain.next_driven());
+      if (step < steps) {
+        path.between(frame, static_cast<double>(step) / steps, between);
+        chain.set_next_driven(between);
+      } else {
+        chain.set_next_driven(path.at_frame(frame + 1));
+      }
       chain.step(h);
     }
-    keep();
+    keep(frame + 1);
   }
   return result;
 }

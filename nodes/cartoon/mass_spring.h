@@ -40,8 +40,8 @@ struct MassSpringResult {
 // whose work is exactly the change of the link's energy: so with the driven particles at rest the total
 // energy only falls, by the drag's work, whatever the stiffness and the step [Gonzalez, Time Integration and
 // Discrete Hamiltonian Systems, 1996]. Second order. For a given r⁺ the unknown velocities solve a linear
-// system on the tree, the same for all axes; r⁺ is found by repetition, for which the step is held under ½ /
-// √link.
+// system on the tree, the same for all axes; r⁺ is found by repetition, some five times at the defaults, for
+// which the step is held under ½ / √link.
 MassSpringResult simulate(const std::vector<int>& parents, const ParticlePath& driven, double fps,
                           const MassSpringParams& params, bool with_velocities, Work& work);
 

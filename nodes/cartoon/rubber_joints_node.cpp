@@ -47,7 +47,7 @@ std::optional<Contacts> found_contacts(const Motion& motion, Work& work) {
 NodeType rubber_joints_node() {
   NodeType type;
   type.name = "RubberJoints";
-  type.code_version = 3;
+  type.code_version = 4;
   type.category = "cartoon";
   type.help =
       "Turns limbs into rubber: cuts links into sub-joints, bends them along curves and lets them follow "
@@ -84,7 +84,6 @@ NodeType rubber_joints_node() {
   type.param("blend", number(0.7).between(0, 1).slider(0, 1), "0 is the curve exactly, 1 all springs");
   type.param("substeps", integer(0).between(0, 1000),
              "steps of the simulation a frame, at least; 0 = by frame rate and stiffness");
-  type.code_version = 2;
   type.compute = [](Compute& compute) {
     const auto motion = compute.shared_input<Motion>("motion");
     Work& work = compute.work();

@@ -6,6 +6,7 @@
 
 #include "nodes/cartoon/planted_limbs.h"
 #include "nodes/motion/elementary.h"
+#include "nodes/motion/track_kernels.h"
 
 namespace kinegraph {
 namespace {
@@ -16,6 +17,7 @@ constexpr double free_below = 0.2;    // of a link's rest length
 constexpr double least_link = 1e-3;   // of the height: a shorter one has no direction to speak of
 constexpr double fade_seconds = 0.3;  // in which a limb is calmed and let go again
 constexpr int most_rounds = 12;
+constexpr std::size_t frames_at_once = 16;
 constexpr double calm_enough = 0.9;  // more than that is all
 
 double angle_between(Vec3 a, Vec3 b) {
@@ -84,20 +86,12 @@ std::vector<std::size_t> FlipWatch::flips(const WorldMotion& places, int i) cons
   if (shortest < 0) return frames;
   const double cosine_squared = most_ < pi / 2 ? cosine(most_) * cosine(most_) : 2;
   const auto child = places.position(i), parent = places.position(parents_[i]);
-  const double *cx = child.x.data(), *cy = child.y.data(), *cz = child.z.data();
-  const double *px = parent.x.data(), *py = parent.y.data(), *pz = parent.z.data();
-  Vec3 before{cx[0] - px[0], cy[0] - py[0], cz[0] - pz[0]};
-  double before_squared = dot(before, before);
-  for (std::size_t t = 1; t < places.frames(); ++t) {
-    const Vec3 link{cx[t] - px[t], cy[t] - py[t], cz[t] - pz[t]};
-    const double squared = dot(link, link), along = dot(before, link);
-    // Most turn little: along > 0 and cos² of the angle above the limit's.
-    if (!(along * std::fabs(along) >= cosine_squared * (squared * before_squared)) && squared > shortest &&
-        before_squared > shortest && angle_between(before, link) > allowed(i, t))
+  const auto next = [&](std::size_t start) {
+    return next_turn_beyond(parent, child, cosine_squared, shortest, start);
+  };
+  for (std::size_t t = next(1); t < places.frames(); t = next(t + 1))
+    if (angle_between(child[t - 1] - parent[t - 1], child[t] - parent[t]) > allowed(i, t))
       frames.push_back(t);
-    before = link;
-    before_squared = squared;
-  }
   return frames;
 }
 
@@ -163,12 +157,16 @@ void add_swings(const SubJoints& sub, const FlipWatch& watch, std::vector<Vec3> 
   std::vector<char> changed(count, 1);
   std::vector<Vec3> still;  // before any swing; kept once something flips
   const auto put = [&](bool again) {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!changed[i]) continue;
-      const auto at = places.position(static_cast<int>(i));
-      for (std::size_t t = 0; t < frames; ++t) {
-        const double part = left[i].empty() ? 1 : left[i][t];
-        at.set(t, (again ? still[t * count + i] : at[t]) + part * swing[t * count + i]);
+    // A few frames at once, whose swings stay in the cache while the sub-joints take theirs.
+    for (std::size_t start = 0; start < frames; start += frames_at_once) {
+      const std::size_t end = std::min(start + frames_at_once, frames);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!changed[i]) continue;
+        const auto at = places.position(static_cast<int>(i));
+        for (std::size_t t = start; t < end; ++t) {
+          const double part = left[i].empty() ? 1 : left[i][t];
+          at.set(t, (again ? still[t * count + i] : at[t]) + part * swing[t * count + i]);
+        }
       }
     }
   };

@@ -7,6 +7,7 @@
 
 #include "nodes/cartoon/link_turns.h"
 #include "nodes/motion/elementary.h"
+#include "nodes/motion/track_kernels.h"
 
 namespace kinegraph {
 namespace {
@@ -130,11 +131,15 @@ class Turning {
     const std::vector<Vec3> turns = followed_turns(between, 1 / fps_, most_a_second / fps_);
     std::vector<QuatTrack> out;
     for (int l = 1; l < first.count; ++l) out.push_back(places_.orientation(own + l));
-    for (std::size_t t = 0; t < turns.size(); ++t) {
-      const Quat part = exp((1.0 / first.count) * turns[t]);
-      Quat at = from[t];
-      for (QuatTrack& track : out) track.set(t, normalized(at = at * part));
-    }
+    std::vector<double> room(4 * turns.size());
+    const auto series = [&](std::size_t n) {
+      return std::span(room).subspan(n * turns.size(), turns.size());
+    };
+    const QuatTrack part{series(0), series(1), series(2), series(3)};
+    for (std::size_t t = 0; t < turns.size(); ++t) part.set(t, exp((1.0 / first.count) * turns[t]));
+    for (int l = 1; l < first.count; ++l)
+      multiply_tracks(std::as_const(places_).orientation(own + l - 1), false,
+                      {part.x, part.y, part.z, part.w}, out[static_cast<std::size_t>(l - 1)]);
     if (axes_.empty()) return;
     const int next = first.next;
     std::vector<InputTwist> inputs{{world_.orientation(k), rest_link(rest_, k, k, next)}};

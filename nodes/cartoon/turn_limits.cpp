@@ -69,6 +69,9 @@ std::vector<double> with_steps_between(std::span<const double> values, std::span
 std::vector<Quat> with_turns_within(std::span<const Quat> turns, std::span<const double> most) {
   const std::size_t count = turns.size();
   const auto follow = [](Quat from, Quat to, double most_turn) {
+    // Most are near enough: cos(a/2) <= 1 − a²/8 + a⁴/384.
+    const double square = most_turn * most_turn;
+    if (std::fabs(dot(from, to)) > 1 - square / 8 + square * square / 384 + 1e-12) return to;
     const double angle = turn(from, to);
     return angle > most_turn ? slerp(most_turn / angle, from, to) : to;
   };
@@ -77,7 +80,7 @@ std::vector<Quat> with_turns_within(std::span<const Quat> turns, std::span<const
   for (std::size_t t = count; t-- > 1;) backward[t - 1] = follow(backward[t], turns[t - 1], most[t]);
   // The middle of two that keep within may go a little faster than either where they are far apart.
   for (std::size_t t = 0; t < count; ++t) {
-    const Quat middle = slerp(0.5, forward[t], backward[t]);
+    const Quat middle = forward[t] == backward[t] ? forward[t] : slerp(0.5, forward[t], backward[t]);
     forward[t] = t > 0 ? follow(forward[t - 1], middle, most[t]) : middle;
   }
   return forward;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nodes/motion/track_kernels.h"
+
 namespace kinegraph {
 namespace {
 
@@ -57,9 +59,7 @@ Motion motion_from_world(std::shared_ptr<const Skeleton> skeleton, std::shared_p
       const Quat back = inverse(tree.above);
       for (std::size_t t = 0; t < frames; ++t) rotation.set(t, normalized(back * orientation[t]));
     } else {
-      const auto above = world.orientation(parent);
-      for (std::size_t t = 0; t < frames; ++t)
-        rotation.set(t, normalized(inverse(above[t]) * orientation[t]));
+      multiply_tracks(world.orientation(parent), true, orientation, rotation);
     }
     make_continuous(rotation.x, rotation.y, rotation.z, rotation.w);
     if (!translates[j]) continue;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "nodes/motion/elementary.h"
+#include "nodes/time/gaussian_kernels.h"
 #include "nodes/time/lowpass.h"
 
 namespace kinegraph {
@@ -26,26 +27,8 @@ void Gaussian::apply(std::span<double> series) const {
   auto count = static_cast<std::ptrdiff_t>(series.size());
   std::vector<double> longer(series.size() + 2 * static_cast<std::size_t>(radius));
   for (std::ptrdiff_t i = -radius; i < count + radius; ++i) longer[i + radius] = reflected(series, i);
-  for (double& x : series) x = 0;
-  // Neighbours at once, so that their sums stay in registers; each sum is taken in the same order.
-  constexpr std::ptrdiff_t lanes = 8;
-  const double* middle = longer.data() + radius;
-  std::ptrdiff_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    double sum[lanes] = {};
-    for (std::ptrdiff_t k = radius; k > 0; --k) {
-      const double weight = weights_[k];
-      const double *before = middle + i - k, *after = middle + i + k;
-      for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) sum[lane] += weight * (before[lane] + after[lane]);
-    }
-    for (std::ptrdiff_t lane = 0; lane < lanes; ++lane)
-      series[i + lane] = sum[lane] + weights_[0] * middle[i + lane];
-  }
-  for (; i < count; ++i) {
-    double sum = 0;
-    for (std::ptrdiff_t k = radius; k > 0; --k) sum += weights_[k] * (middle[i - k] + middle[i + k]);
-    series[i] = sum + weights_[0] * middle[i];
-  }
+  symmetric_sums(longer.data() + radius, series.size(), weights_.data(), static_cast<std::size_t>(radius),
+                 series.data());
 }
 
 double gaussian_sigma(double cutoff) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "nodes/motion/elementary.h"
+#include "tests/nodes/every_target.h"
 
 namespace kinegraph {
 namespace {
@@ -143,6 +144,24 @@ TEST(MassSpring, FollowsThroughAlikeAtEveryRate) {
   EXPECT_NEAR(slow, fast, 0.05 * fast);
   RecordProperty("lag_ms_at_24", std::to_string(1000 * slow));
   RecordProperty("lag_ms_at_240", std::to_string(1000 * fast));
+}
+
+// A body of several limbs in any order, of which one branches.
+TEST(MassSpring, GivesTheSameBitsOnEveryCpu) {
+  const std::vector<int> body{-1, 0, 1, 0, 3, 4, 2, 2, 7, 8, 5, 6, -1, 12};
+  ParticlePath driven{body.size(), {}};
+  for (int f = 0; f < 40; ++f)
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      const double part = static_cast<double>(i), t = f / 40.0;
+      driven.at.push_back({0.1 * part, std::sin(part + 3 * t), std::cos(2 * part - 5 * t)});
+    }
+  on_every_target([&] {
+    Alone work;
+    std::vector<double> all;
+    for (Vec3 v : simulate(body, driven, 60, {}, false, work).positions.at)
+      all.insert(all.end(), {v.x, v.y, v.z});
+    return all;
+  });
 }
 
 }  // namespace

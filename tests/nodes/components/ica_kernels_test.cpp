@@ -2,13 +2,12 @@
 #include "nodes/components/ica_kernels.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include "nodes/motion/elementary.h"
+#include "tests/nodes/every_target.h"
 
 namespace kinegraph {
 namespace {
@@ -26,19 +25,6 @@ std::vector<double> numbers(std::size_t count, double size, std::uint64_t state)
 }
 const std::vector<double> a = numbers(m * stride, 2, 1), b = numbers(n * stride, 3, 2),
                           w = numbers(m * n, 1, 3);
-
-// What a kernel gives on each of this machine's instruction sets: the same bits. Returns them.
-std::vector<double> on_every_target(const std::function<std::vector<double>()>& kernel) {
-  std::vector<double> first;
-  for (std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    const std::vector<double> now = kernel();
-    if (first.empty()) first = now;
-    EXPECT_EQ(now, first) << hwy::TargetName(target);
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  return first;
-}
 
 std::vector<double> added_up(const std::vector<double>& sums) {
   std::vector<double> out(sums.size() / kernel_lanes);

@@ -8,6 +8,7 @@
 
 #include "nodes/motion/elementary.h"
 #include "nodes/time/gaussian.h"
+#include "tests/nodes/every_target.h"
 
 namespace kinegraph {
 namespace {
@@ -102,6 +103,15 @@ TEST(Gaussian, scales_a_wave_by_its_transform_and_leaves_uniform_motion_alone) {
   y = x;
   Gaussian(sigma, 1000).apply(y);
   for (std::size_t t = 0; t < 1000; ++t) EXPECT_NEAR(y[t], x[t], 1e-10);
+}
+
+TEST(Gaussian, gives_the_same_bits_on_every_instruction_set) {
+  on_every_target([] {
+    std::vector<double> series(203);
+    for (std::size_t i = 0; i < series.size(); ++i) series[i] = std::sin(static_cast<double>(i * i));
+    Gaussian(3.3, series.size()).apply(series);
+    return series;
+  });
 }
 
 TEST(Gaussian, is_cut_at_six_sigma_or_the_series_and_sums_to_one) {
