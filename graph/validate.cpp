@@ -199,7 +199,7 @@ class Validator {
       if (!port.optional && !node.inputs.count(port.name) && !is_published_input(name, port.name))
         add(error("open-input", fmt::format("{} needs a link to its input \"{}\"", type.name, port.name))
                 .at_port(port.name)
-                .hinting(fmt::format("{}: {}", fmt::join(port.types, " or "), port.help)),
+                .hinting(fmt::format("link a {} to it: {}", fmt::join(port.types, " or a "), port.help)),
             node.place, name);
     const bool linked = std::any_of(type.inputs.begin(), type.inputs.end(), [&](const InputPort& port) {
       return node.inputs.count(port.name) || is_published_input(name, port.name);

@@ -120,8 +120,15 @@ void GraphCanvas::paint_nodes(QPainter& p, const QRectF& seen) {
     if (!node.rect.adjusted(-8, -8, 8, 8).intersects(seen)) continue;
     const NodeStatus* status = evaluation_.status(node.name);
     const QPointF at = to_view(node.rect.topLeft());
-    pixmaps_.draw(p, at, node, status, problem_of(node.name), *theme_);
     const QRectF box(at, node.rect.size() * zoom_);
+    // Under the node, so that its ports stay whole.
+    if (session_.selected().count(node.name)) {
+      const bool current = session_.current() == node.name;
+      p.setPen(QPen(theme_->accent, current ? 5.5 : 3.5));
+      p.setBrush(Qt::NoBrush);
+      p.drawRoundedRect(box.adjusted(-0.5, -0.5, 0.5, 0.5), 7 * zoom_, 7 * zoom_);
+    }
+    pixmaps_.draw(p, at, node, status, problem_of(node.name), *theme_);
     if (status && status->state == NodeStatus::State::running && !node.dot) {
       const double full = box.width() - 12 * zoom_;
       p.fillRect(QRectF(box.left() + 6 * zoom_, box.bottom() - 4 * zoom_, full, std::max(2.0, 2.5 * zoom_)),
@@ -129,12 +136,6 @@ void GraphCanvas::paint_nodes(QPainter& p, const QRectF& seen) {
       p.fillRect(QRectF(box.left() + 6 * zoom_, box.bottom() - 4 * zoom_, full * status->progress,
                         std::max(2.0, 2.5 * zoom_)),
                  theme_->running);
-    }
-    if (session_.selected().count(node.name)) {
-      const bool current = session_.current() == node.name;
-      p.setPen(QPen(theme_->accent, current ? 2.5 : 1.5));
-      p.setBrush(Qt::NoBrush);
-      p.drawRoundedRect(box.adjusted(-2, -2, 2, 2), 7 * zoom_, 7 * zoom_);
     }
   }
   if (hover_ && !gesture_) {

@@ -195,6 +195,51 @@ void draw_still(QPainter& p, const QRectF& box, const Still* still, const Theme&
   p.restore();
 }
 
+bool has_warning(const NodeStatus* status, std::optional<Severity> problem) {
+  return problem == Severity::warning ||
+         (status && std::any_of(status->diagnostics.begin(), status->diagnostics.end(),
+                                [](const Diagnostic& d) { return d.severity == Severity::warning; }));
+}
+
+// What a node shows from afar: its name, at least 9 pixels on the screen where it fits, its type where there
+// is room, its still, and its state as a dot.
+void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, NodeStatus::State state,
+                bool bad, std::optional<Severity> problem, const QRectF& box, const QColor& ink,
+                const Theme& theme, double zoom) {
+  const double dot = std::clamp(3.5 / zoom, 5.0, box.height() / 5), left = std::max(11.0, 7 / zoom);
+  const bool with_still = !node.still.isNull() && zoom >= 0.3;
+  QRectF words(left, 3 / zoom, box.width() - left - 4.8 * dot, box.height() - 3 / zoom);
+  if (with_still) {
+    const double height = std::min(1.15 * node.still.height(), box.height() * 0.5);
+    const QRectF still(8, box.height() - 7 - height, box.width() - 16, height);
+    words.setBottom(still.top());
+    draw_still(p, still, status ? status->still.get() : nullptr, theme);
+  }
+  const QString name = QString::fromStdString(node.name);
+  // A long name is written smaller before letters are left out.
+  double pixels = std::clamp(11 / zoom, 14.0, 44.0);
+  const auto wide = [&](double at) { return QFontMetricsF(font_of(at, true)).horizontalAdvance(name); };
+  if (const double needs = wide(pixels); needs > words.width())
+    pixels = std::max(std::min(pixels, 8.5 / zoom), pixels * words.width() / needs * 0.99);
+  const double type_pixels = 9 / zoom, line = pixels * 1.3, type_line = type_pixels * 1.35;
+  const bool with_type = zoom >= 0.34 && words.height() >= line + type_line;
+  const double top = words.center().y() - (line + (with_type ? type_line : 0)) / 2;
+  const QRectF title(words.left(), top, words.width(), line);
+  p.setFont(font_of(pixels, true));
+  p.setPen(ink);
+  draw_text(p, title, Qt::AlignLeft, name);
+  if (with_type) {
+    p.setFont(font_of(type_pixels));
+    p.setPen(theme.faint_text);
+    draw_text(p, QRectF(words.left(), top + line, box.width() - 2 * left, type_line), Qt::AlignLeft,
+              QString::fromStdString(node.type));
+  }
+  if (state == NodeStatus::State::idle && !bad) return;
+  p.setPen(Qt::NoPen);
+  p.setBrush(bad ? theme.error : has_warning(status, problem) ? theme.warning : state_color(theme, state));
+  p.drawEllipse(QPointF(box.right() - 3.2 * dot, title.center().y()), dot, dot);
+}
+
 }  // namespace
 
 void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std::optional<Severity> problem,
@@ -247,29 +292,7 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
   const QColor ink = node.enabled ? theme.text : theme.faint_text;
   const QString name = QString::fromStdString(node.name);
   if (small) {
-    // As large as the box lets it be, at least 9 pixels on the screen; above the still where that is to be
-    // seen.
-    const double pixels = std::clamp(13.0, 9.5 / zoom, 40.0);
-    const bool with_still = !node.still.isNull() && zoom >= 0.34;
-    p.setFont(font_of(pixels, true));
-    p.setPen(ink);
-    QRectF words = box.adjusted(8, 4, -8, 0);
-    if (with_still) {
-      const QRectF still(8, box.height() - 8 - 1.15 * node.still.height(), box.width() - 16,
-                         1.15 * node.still.height());
-      words.setBottom(still.top());
-      words.setRight(box.right() - 16 / zoom);  // left of the state's dot
-      draw_still(p, still, status ? status->still.get() : nullptr, theme);
-      p.setPen(ink);
-    }
-    draw_text(p, words, Qt::AlignHCenter, name);
-    const double dot = 4 / zoom;
-    if (state != State::idle) {
-      p.setPen(Qt::NoPen);
-      p.setBrush(state_color(theme, state));
-      const double y = with_still ? words.center().y() : box.bottom() - 2 * dot;
-      p.drawEllipse(QPointF(box.right() - 2 * dot, y), dot, dot);
-    }
+    draw_small(p, node, status, state, bad, problem, box, ink, theme, zoom);
   } else {
     p.setFont(font_of(13, true));
     p.setPen(ink);
@@ -295,9 +318,7 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
     const QPointF badge(box.width() - 16, 14);
     if (bad)
       draw_badge(p, badge, theme.error, theme.node, "!");
-    else if (problem == Severity::warning ||
-             (status && std::any_of(status->diagnostics.begin(), status->diagnostics.end(),
-                                    [](const Diagnostic& d) { return d.severity == Severity::warning; })))
+    else if (has_warning(status, problem))
       draw_badge(p, badge, theme.warning, theme.node, "!");
     else if (state != State::idle) {
       p.setPen(Qt::NoPen);

@@ -84,13 +84,13 @@ std::shared_ptr<const ComponentPicture> make_component_picture(const ValuePtr& v
       // Without a figure the signal and caption still tell what there is.
     }
     figure.share = QString("%1 %").arg(100 * components->shares[entry], 0, 'f', 1);
-    QStringList words;
     if (const auto cadence = cadence_of(*components, entry))
-      words << QString("%1 Hz").arg(*cadence, 0, 'f', 1);
+      figure.cadence = QString("%1 Hz").arg(*cadence, 0, 'f', 1);
+    QStringList words;
     const std::vector<Moved> moved = moved_by(*components, entry);
     for (std::size_t i = 0; i < std::min(named_joints, moved.size()); ++i)
       words << QString::fromStdString(moved[i].label);
-    figure.caption = words.join(", ");
+    figure.joints = words.join(", ");
     figure.unique = components->unique.size() <= entry || components->unique[entry];
     const std::size_t step = std::max<std::size_t>(1, components->frames() / drawn_values);
     for (std::size_t t = 0; t < components->frames(); t += step)

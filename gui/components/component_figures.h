@@ -16,7 +16,8 @@ namespace kinegraph {
 struct ComponentFigure {
   std::shared_ptr<const ShownMotion> motion;  // null where it can't be drawn
   QString share;                              // "38.2 %"
-  QString caption;                            // "1.0 Hz, LeftArm, RightArm"
+  QString cadence;                            // "1.0 Hz"; empty: no steady one
+  QString joints;                             // those that move most: "LeftArm, RightArm"
   std::vector<float> signal;                  // over all segments, at most some 600 values
   bool unique = true;
 };

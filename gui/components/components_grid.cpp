@@ -10,9 +10,10 @@
 
 namespace kinegraph {
 namespace {
-constexpr int least_width = 148, least_height = 148, most_height = 212, gap = 8;
-constexpr int head = 24, caption = 20, signal_height = 34;
+constexpr int least_width = 142, most_width = 230, least_height = 150, most_height = 300, gap = 8;
+constexpr int head = 24, caption = 20, signal_height = 36;
 constexpr int playing_ms = 50;
+constexpr float closeness = 0.84f;  // than a sphere around it needs: a figure is slender
 }  // namespace
 
 ComponentsGrid::ComponentsGrid(QWidget* parent) : QWidget(parent), theme_(&dark_theme()), maker_(this) {
@@ -64,6 +65,12 @@ int ComponentsGrid::columns(int width) const {
   return std::max(1, (width - gap) / (least_width + gap));
 }
 
+// All in one row where they fit in it, not wider than a figure needs.
+int ComponentsGrid::tile_width() const {
+  const int across = std::max(1, std::min(columns(width()), count()));
+  return std::min(most_width, (width() - gap) / across - gap);
+}
+
 int ComponentsGrid::heightForWidth(int width) const {
   const int rows = (count() + columns(width) - 1) / columns(width);
   return std::max(tile_height_, rows * (tile_height_ + gap) + gap);
@@ -75,7 +82,7 @@ QSize ComponentsGrid::sizeHint() const {
 
 QRect ComponentsGrid::tile(int component) const {
   const int across = columns(width());
-  const int wide = (width() - gap) / across - gap;
+  const int wide = tile_width();
   return QRect(gap + component % across * (wide + gap), gap + component / across * (tile_height_ + gap), wide,
                tile_height_);
 }
@@ -126,7 +133,10 @@ void ComponentsGrid::ask() {
     const double length = figure.motion->frames / figure.motion->fps;
     add_motion(cell.scene, *figure.motion, std::fmod(seconds, std::max(0.01, length)), looks, *theme_);
     const SceneBox box = box_of(*figure.motion);
-    if (all.cells.empty()) all.camera.frame(box.low, box.high);
+    if (all.cells.empty()) {
+      all.camera.frame(box.low, box.high);
+      all.camera.distance *= closeness;
+    }
     cell.scene.camera_shift = (box.low + box.high) / 2 - all.camera.target;
     all.cells.push_back(std::move(cell));
   }
@@ -189,8 +199,10 @@ void ComponentsGrid::paintEvent(QPaintEvent* event) {
     painter.drawText(title, Qt::AlignVCenter | Qt::AlignLeft, QString("u%1").arg(i + 1));
     painter.setFont(font());
     painter.setPen(theme_->faint_text);
-    painter.drawText(title, Qt::AlignVCenter | Qt::AlignRight,
-                     figure.share + (figure.unique ? QString() : QStringLiteral("  ?")));
+    QString right = figure.share;
+    if (!figure.cadence.isEmpty()) right = figure.cadence + "  " + right;
+    if (!figure.unique) right += QStringLiteral("  ?");
+    painter.drawText(title, Qt::AlignVCenter | Qt::AlignRight, right);
     const QString badge =
         static_cast<std::size_t>(i) < badges_.size() ? badges_[static_cast<std::size_t>(i)] : QString();
     if (!badge.isEmpty()) {
@@ -204,7 +216,7 @@ void ComponentsGrid::paintEvent(QPaintEvent* event) {
     painter.setPen(theme_->text);
     const QRect words(whole.left() + 9, part.bottom() + 2, whole.width() - 18, caption);
     painter.drawText(words, Qt::AlignVCenter | Qt::AlignLeft,
-                     fontMetrics().elidedText(figure.caption, Qt::ElideRight, words.width()));
+                     fontMetrics().elidedText(figure.joints, Qt::ElideRight, words.width()));
     paint_signal(painter, figure,
                  QRectF(whole.left() + 9, words.bottom() + 1, whole.width() - 18, signal_height - 6));
     if (hasFocus() && i == current_) {
@@ -254,7 +266,9 @@ bool ComponentsGrid::event(QEvent* event) {
     for (int i = 0; i < count(); ++i)
       if (tile(i).contains(help->pos())) {
         const ComponentFigure& figure = picture_->figures[static_cast<std::size_t>(i)];
-        QString words = tr("u%1: %2 of the variance; %3").arg(i + 1).arg(figure.share, figure.caption);
+        QString words = tr("u%1: %2 of the variance").arg(i + 1).arg(figure.share);
+        if (!figure.cadence.isEmpty()) words += tr(", %1").arg(figure.cadence);
+        words += "\n" + tr("Moves %1").arg(figure.joints);
         if (!figure.unique) words += "\n" + tr("Another start of the search finds another component here.");
         QToolTip::showText(help->globalPos(), words, this);
       }

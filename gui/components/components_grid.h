@@ -50,6 +50,7 @@ class ComponentsGrid : public QWidget {
  private:
   int count() const { return picture_ ? static_cast<int>(picture_->figures.size()) : 0; }
   int columns(int width) const;
+  int tile_width() const;
   QRect figure_part(const QRect& tile) const;
   void ask();
   void paint_signal(QPainter& painter, const ComponentFigure& figure, const QRectF& where);

@@ -1,15 +1,16 @@
 #include "gui/components/components_panel.h"
 
 #include <QBoxLayout>
+#include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSlider>
-#include <QSpinBox>
 #include <QStackedWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "graph/edit.h"
@@ -91,47 +92,35 @@ QSlider* ComponentsPanel::build_slider(const QString& name, double low, double h
 
 QWidget* ComponentsPanel::build_controls() {
   auto* box = new QWidget(this);
-  auto* grid = new QGridLayout(box);
-  grid->setContentsMargins(10, 8, 10, 8);
-  grid->setHorizontalSpacing(8);
-  grid->setVerticalSpacing(6);
-  target_ = new QLabel(box);
-  grid->addWidget(target_, 0, 0, 1, 4);
+  control_grid_ = new QGridLayout(box);
+  control_grid_->setHorizontalSpacing(8);
+  control_grid_->setVerticalSpacing(6);
   scale_ = build_slider(tr("Scale"), -1, 3);
   translate_ = build_slider(tr("Translate"), -3, 3);
+  scale_label_ = new QLabel(tr("Scale"), box);
+  translate_label_ = new QLabel(tr("Translate"), box);
   scale_value_ = new QLabel(box);
   translate_value_ = new QLabel(box);
-  for (QLabel* label : {scale_value_, translate_value_}) label->setMinimumWidth(44);
+  for (QLabel* label : {scale_value_, translate_value_})
+    label->setFixedWidth(fontMetrics().horizontalAdvance("−0.00 σ") + 4);
   take_away_ = new QPushButton(tr("Take away"), box);
   take_away_->setToolTip(tr("Scales what is chosen to nothing"));
-  grid->addWidget(new QLabel(tr("Scale"), box), 1, 0);
-  grid->addWidget(scale_, 1, 1);
-  grid->addWidget(scale_value_, 1, 2);
-  grid->addWidget(take_away_, 1, 3);
-  grid->addWidget(new QLabel(tr("Translate"), box), 2, 0);
-  grid->addWidget(translate_, 2, 1);
-  grid->addWidget(translate_value_, 2, 2);
   merge_ = new QPushButton(tr("Merge"), box);
   merge_->setToolTip(tr("Makes the chosen components one; choose several with Ctrl"));
-  grid->addWidget(merge_, 2, 3);
-  from_ = new QSpinBox(box);
-  from_->setPrefix(tr("from "));
-  from_->setAccessibleName(tr("Segment that gives"));
-  to_ = new QSpinBox(box);
-  to_->setPrefix(tr("to "));
-  to_->setAccessibleName(tr("Segment that receives"));
+  from_ = new QComboBox(box);
+  from_->setAccessibleName(tr("Clip that gives"));
+  to_ = new QComboBox(box);
+  to_->setAccessibleName(tr("Clip that receives"));
+  for (QComboBox* one : {from_, to_}) {
+    one->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    one->setMinimumContentsLength(7);
+  }
+  arrow_ = new QLabel(QStringLiteral("→"), box);
   transfer_ = new QPushButton(tr("Transfer"), box);
-  transfer_->setToolTip(tr("Gives the chosen components of one segment to another"));
-  auto* segments = new QHBoxLayout;
-  segments->addWidget(from_, 1);
-  segments->addWidget(to_, 1);
-  grid->addWidget(new QLabel(tr("Segment"), box), 3, 0);
-  grid->addLayout(segments, 3, 1, 1, 2);
-  grid->addWidget(transfer_, 3, 3);
+  transfer_->setToolTip(tr("Gives the chosen components of one clip to another"));
   told_ = new QLabel(box);
-  told_->setWordWrap(true);
-  grid->addWidget(told_, 4, 0, 1, 4);
-  grid->setColumnStretch(1, 1);
+  told_->setTextFormat(Qt::PlainText);
+  told_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
 
   connect(scale_, &QSlider::valueChanged, this, [this](int at) { set_amount("scale", at / slider_steps); });
   connect(translate_, &QSlider::valueChanged, this,
@@ -142,15 +131,53 @@ QWidget* ComponentsPanel::build_controls() {
     session_.end_gesture();
   });
   connect(merge_, &QPushButton::clicked, this, [this] { set_edits(with_merge(edits(), chosen())); });
-  connect(transfer_, &QPushButton::clicked, this,
-          [this] { set_edits(with_transfer(edits(), chosen(), from_->value(), to_->value())); });
+  connect(transfer_, &QPushButton::clicked, this, [this] {
+    set_edits(with_transfer(edits(), chosen(), from_->currentIndex(), to_->currentIndex()));
+  });
   return box;
+}
+
+// In two lines above the figures where there is room for it, else in four below them.
+void ComponentsPanel::lay_controls(bool above) {
+  QGridLayout& grid = *control_grid_;
+  while (QLayoutItem* item = grid.takeAt(0)) delete item;
+  for (int column = 0; column < 13; ++column) grid.setColumnStretch(column, 0);
+  if (above) {
+    grid.setContentsMargins(10, 6, 10, 4);
+    int column = 0;
+    for (QWidget* one : std::initializer_list<QWidget*>{scale_label_, scale_, scale_value_, translate_label_,
+                                                        translate_, translate_value_, take_away_, merge_})
+      grid.addWidget(one, 0, column++);
+    auto* clips = new QHBoxLayout;
+    clips->setSpacing(8);
+    clips->addWidget(told_, 1);
+    for (QWidget* one : std::initializer_list<QWidget*>{from_, arrow_, to_, transfer_}) clips->addWidget(one);
+    grid.addLayout(clips, 1, 0, 1, column);
+    grid.setColumnStretch(1, 1);
+    grid.setColumnStretch(4, 1);
+  } else {
+    grid.setContentsMargins(10, 8, 10, 8);
+    grid.addWidget(told_, 0, 0, 1, 5);
+    grid.addWidget(scale_label_, 1, 0);
+    grid.addWidget(scale_, 1, 1, 1, 2);
+    grid.addWidget(scale_value_, 1, 3);
+    grid.addWidget(take_away_, 1, 4);
+    grid.addWidget(translate_label_, 2, 0);
+    grid.addWidget(translate_, 2, 1, 1, 2);
+    grid.addWidget(translate_value_, 2, 3);
+    grid.addWidget(merge_, 2, 4);
+    grid.addWidget(from_, 3, 0, 1, 2);
+    grid.addWidget(arrow_, 3, 2);
+    grid.addWidget(to_, 3, 3);
+    grid.addWidget(transfer_, 3, 4);
+    grid.setColumnStretch(1, 1);
+  }
 }
 
 void ComponentsPanel::set_theme(const Theme& theme) {
   theme_ = &theme;
   grid_->set_theme(theme);
-  for (QLabel* label : {empty_, target_, told_}) {
+  for (QLabel* label : {empty_, told_, arrow_}) {
     QPalette colors = label->palette();
     colors.setColor(QPalette::WindowText, theme.faint_text);
     label->setPalette(colors);
@@ -175,15 +202,19 @@ void ComponentsPanel::hideEvent(QHideEvent* event) {
   emit wanted_changed();
 }
 
-// Wide and low, as below the graph: the controls stand beside the figures; else under them.
 void ComponentsPanel::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  const bool beside = width() > 620;
-  parts_->setDirection(beside ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-  controls_->setMinimumWidth(beside ? 340 : 0);
-  controls_->setMaximumWidth(beside ? 340 : QWIDGETSIZE_MAX);
-  controls_->setMaximumHeight(beside ? QWIDGETSIZE_MAX : 190);
-  grid_->set_room(beside ? height() : 212);
+  const bool above = width() > 780;
+  if (above != above_ || control_grid_->count() == 0) {
+    above_ = above;
+    lay_controls(above);
+    parts_->setDirection(above ? QBoxLayout::BottomToTop : QBoxLayout::TopToBottom);
+  }
+  const int controls = control_grid_->parentWidget()->sizeHint().height();
+  controls_->setFixedHeight(controls);
+  grid_->set_room(std::max(above ? 0 : 212, height() - controls));
+  control_grid_->activate();
+  tell_edits();
 }
 
 void ComponentsPanel::find_wanted() {
@@ -241,10 +272,7 @@ void ComponentsPanel::take_values() {
   auto picture = figures_.find(value);
   if (picture) {
     grid_->set_picture(picture);
-    const int last = std::max(0, picture->segments - 1);
-    from_->setRange(0, last);
-    to_->setRange(0, last);
-    if (last > 0 && from_->value() == to_->value()) to_->setValue(from_->value() == 0 ? 1 : 0);
+    name_segments(picture->segments);
   } else {
     const NodeStatus* status = components_.node.empty() ? nullptr : evaluation_.status(components_.node);
     if (components_.node.empty()) {
@@ -255,12 +283,36 @@ void ComponentsPanel::take_values() {
       empty_->setText(tr("%1 failed.\n%2")
                           .arg(QString::fromStdString(components_.node),
                                QString::fromStdString(status->diagnostics.front().message)));
+    } else if (status && status->state == NodeStatus::State::blocked) {
+      empty_->setText(tr("%1 waits for a node before it that failed or is not linked. Problems tells which.")
+                          .arg(QString::fromStdString(components_.node)));
     } else {
       empty_->setText(tr("Finding the components of %1 …").arg(QString::fromStdString(components_.node)));
     }
   }
   pages_->setCurrentIndex(picture && !components_.node.empty() ? 1 : 0);
   update_controls();
+}
+
+// Segments are called after the nodes whose clips they are, in the order of the links.
+void ComponentsPanel::name_segments(int count) {
+  QStringList names;
+  const std::vector<Target> inputs = linked_to(session_.document(), components_.node, "motions");
+  for (int i = 0; i < count; ++i)
+    names << (static_cast<int>(inputs.size()) == count
+                  ? QString::fromStdString(inputs[static_cast<std::size_t>(i)].node)
+                  : tr("clip %1").arg(i));
+  for (QComboBox* one : {from_, to_}) {
+    QStringList shown;
+    for (int i = 0; i < one->count(); ++i) shown << one->itemText(i);
+    if (shown == names) continue;
+    const int before = one->currentIndex();
+    one->clear();
+    one->addItems(names);
+    one->setCurrentIndex(std::clamp(before, 0, std::max(0, count - 1)));
+  }
+  if (count > 1 && from_->currentIndex() == to_->currentIndex())
+    to_->setCurrentIndex(from_->currentIndex() == 0 ? 1 : 0);
 }
 
 std::vector<int> ComponentsPanel::chosen() const {
@@ -322,15 +374,29 @@ void ComponentsPanel::set_amount(const char* op, double amount) {
   set_edits(all);
 }
 
+void ComponentsPanel::tell_edits() {
+  const bool any = !grid_->chosen().empty() && !session_.is_read_only();
+  QString which;
+  for (int component : chosen()) which += (which.isEmpty() ? "u" : ", u") + QString::number(component);
+  const QString where = edit_node_.empty() ? tr("a new ComponentEdit") : QString::fromStdString(edit_node_);
+  QString words = any ? tr("%1: edits go to %2").arg(which, where)
+                      : tr("Click a component to edit it; Ctrl-click for several");
+  if (const std::string done = told(edits()); !done.empty())
+    words += QStringLiteral("   ·   ") + tr("so far: %1").arg(QString::fromStdString(done));
+  told_->setText(fontMetrics().elidedText(words, Qt::ElideRight, std::max(160, told_->width())));
+  told_->setToolTip(words);
+}
+
 void ComponentsPanel::update_controls() {
   const Json all = edits();
   const std::vector<int> components = chosen();
   const bool any = !components.empty() && !session_.is_read_only();
   for (QWidget* one : std::initializer_list<QWidget*>{scale_, translate_, take_away_}) one->setEnabled(any);
   merge_->setEnabled(any && components.size() > 1);
-  transfer_->setEnabled(any && from_->maximum() > 0);
-  from_->setEnabled(from_->maximum() > 0);
-  to_->setEnabled(from_->maximum() > 0);
+  const bool several = from_->count() > 1;
+  transfer_->setEnabled(any && several);
+  from_->setEnabled(several);
+  to_->setEnabled(several);
   const double scale = any ? amount_of(all, "scale", components.front()) : 1;
   const double translate = any ? amount_of(all, "translate", components.front()) : 0;
   const auto show = [](QSlider* slider, double amount) {
@@ -342,14 +408,7 @@ void ComponentsPanel::update_controls() {
   show(translate_, translate);
   scale_value_->setText(QString("× %1").arg(scale, 0, 'f', 2));
   translate_value_->setText(QString("%1 σ").arg(translate, 0, 'f', 2));
-  QString which;
-  for (int component : components) which += (which.isEmpty() ? "u" : ", u") + QString::number(component);
-  const QString where = edit_node_.empty() ? tr("a new ComponentEdit") : QString::fromStdString(edit_node_);
-  target_->setText(any ? tr("%1: edits go to %2").arg(which, where)
-                       : tr("Click a component to edit it; Ctrl-click for several"));
-  const QString words = QString::fromStdString(told(all));
-  told_->setText(words);
-  told_->setVisible(!words.isEmpty());
+  tell_edits();
   std::vector<QString> badges;
   if (auto picture = figures_.find(
           components_.node.empty() ? nullptr : evaluation_.value(components_.node, components_.port)))

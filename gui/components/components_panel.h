@@ -15,11 +15,12 @@
 #include "gui/window/theme.h"
 
 class QBoxLayout;
+class QComboBox;
+class QGridLayout;
 class QLabel;
 class QPushButton;
 class QScrollArea;
 class QSlider;
-class QSpinBox;
 class QStackedWidget;
 
 namespace kinegraph {
@@ -48,11 +49,14 @@ class ComponentsPanel : public QWidget {
 
  private:
   QWidget* build_controls();
+  void lay_controls(bool above);
+  void name_segments(int count);
   QSlider* build_slider(const QString& name, double low, double high);
   void find_wanted();
   void find_edit_node();
   void take_values();
   void update_controls();
+  void tell_edits();
   Json edits() const;
   // Puts `edits` into the ComponentEdit node, as one step with the node where that has to be added first.
   void set_edits(const Json& edits);
@@ -68,17 +72,18 @@ class ComponentsPanel : public QWidget {
   ComponentFigures figures_;
   Target components_;  // node "" = none
   std::string edit_node_;
-  bool wanting_ = false;
+  bool wanting_ = false, above_ = false;
 
   QBoxLayout* parts_;
-  QScrollArea *scroll_, *controls_;
+  QScrollArea* controls_;
+  QGridLayout* control_grid_;
   QStackedWidget* pages_ = nullptr;
-  QLabel *empty_ = nullptr, *target_ = nullptr, *told_ = nullptr, *scale_value_ = nullptr,
-         *translate_value_ = nullptr;
+  QLabel *empty_ = nullptr, *told_ = nullptr, *scale_label_ = nullptr, *translate_label_ = nullptr,
+         *scale_value_ = nullptr, *translate_value_ = nullptr, *arrow_ = nullptr;
   ComponentsGrid* grid_ = nullptr;
   QSlider *scale_ = nullptr, *translate_ = nullptr;
   QPushButton *take_away_ = nullptr, *merge_ = nullptr, *transfer_ = nullptr;
-  QSpinBox *from_ = nullptr, *to_ = nullptr;
+  QComboBox *from_ = nullptr, *to_ = nullptr;
 };
 
 }  // namespace kinegraph

@@ -1,5 +1,6 @@
 #include "gui/curves/axis.h"
 
+#include <QLocale>
 #include <algorithm>
 #include <cmath>
 
@@ -13,16 +14,23 @@ double round_step(double length, int wanted) {
   return power * 10;
 }
 
+QString plain_number(double value) {
+  return std::abs(value) >= 1e7 ? QString::number(value, 'g', 3)
+         : std::abs(value) >= 1000
+             ? QLocale(QLocale::English).toString(static_cast<qlonglong>(std::llround(value)))
+             : QString::number(value, 'g', 4);
+}
+
 void paint_axis(QPainter& painter, const QRectF& area, const Theme& theme, double frames, double low,
                 double high, const QString& unit) {
-  const double up = round_step(high - low, static_cast<int>(area.height() / 42));
+  const double up = round_step(high - low, std::max(2, static_cast<int>(area.height() / 28)));
   for (double v = std::ceil(low / up) * up; v <= high; v += up) {
     const double y = area.bottom() - (v - low) / (high - low) * area.height();
     painter.setPen(QPen(theme.line, 1));
     painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
     painter.setPen(theme.faint_text);
     painter.drawText(QRectF(0, y - 9, area.left() - 6, 18), Qt::AlignRight | Qt::AlignVCenter,
-                     QString::number(std::abs(v) < up / 1e6 ? 0.0 : v, 'g', 4));
+                     plain_number(std::abs(v) < up / 1e6 ? 0.0 : v));
   }
   const double across = std::max(1.0, round_step(frames, static_cast<int>(area.width() / 80)));
   for (double frame = 0; frame <= frames; frame += across) {
@@ -31,7 +39,7 @@ void paint_axis(QPainter& painter, const QRectF& area, const Theme& theme, doubl
     painter.drawLine(QPointF(x, area.bottom()), QPointF(x, area.bottom() + 4));
     painter.setPen(theme.faint_text);
     painter.drawText(QRectF(x - 40, area.bottom() + 5, 80, 18), Qt::AlignHCenter | Qt::AlignTop,
-                     QString::number(frame));
+                     plain_number(frame));
   }
   painter.setPen(theme.faint_text);
   painter.drawText(QRectF(4, area.top() - 24, area.left() - 10, 18), Qt::AlignRight | Qt::AlignVCenter, unit);

@@ -10,6 +10,8 @@ namespace kinegraph {
 
 // The step of 1, 2 or 5 times a power of ten that gives some `wanted` of them over a length.
 double round_step(double length, int wanted);
+// "1,250", "0.035"
+QString plain_number(double value);
 // Frames 0 … `frames` across, `low` … `high` up.
 void paint_axis(QPainter& painter, const QRectF& area, const Theme& theme, double frames, double low,
                 double high, const QString& unit);

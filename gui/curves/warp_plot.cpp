@@ -116,23 +116,32 @@ void WarpPlot::paintEvent(QPaintEvent*) {
     return;
   }
   const bool with_energy = warp_->energy.size() > 1;
-  const double energy_height = with_energy ? std::min(150.0, height() * 0.32) : 0;
-  paint_path(painter, QRectF(rect()).adjusted(58, 30, -14, -36 - energy_height));
-  if (with_energy)
-    paint_energy(painter, QRectF(58, height() - energy_height + 22, width() - 72, energy_height - 50));
+  const QRectF all = QRectF(rect()).adjusted(58, 30, -14, -28);
+  if (!with_energy) return paint_path(painter, all);
+  // Beside each other where the dock is wide and low, else the energy below the path.
+  QRectF path = all, energy = all;
+  if (width() > 1.5 * height()) {
+    path.setWidth(all.width() * 0.6);
+    energy.setLeft(path.right() + 82);
+  } else {
+    energy.setTop(all.bottom() - std::min(120.0, all.height() * 0.25));
+    path.setBottom(energy.top() - 58);
+  }
+  paint_path(painter, path);
+  paint_energy(painter, energy);
 }
 
 void WarpPlot::paint_path(QPainter& painter, const QRectF& area) {
   const double across = std::max(1u, warp_->source_frames), up = std::max(1u, warp_->reference_frames);
   if (!distances_.isNull()) {
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
-    painter.drawImage(area, tinted(distances_, theme_->window,
-                                   theme_->dark ? theme_->line.lighter(135) : theme_->line.lighter(108)));
+    const QColor far = theme_->dark ? QColor(0x4d6f9a) : QColor(0x8fb3dc);
+    painter.drawImage(area, tinted(distances_, theme_->panel, far));
   }
   paint_axis(painter, area, *theme_, across, 0, up, QString());
   painter.setPen(theme_->text);
-  painter.drawText(QRectF(area.left(), 6, area.width(), 20), Qt::AlignLeft | Qt::AlignVCenter,
-                   tr("Frames of the reference over those of the source"));
+  painter.drawText(QRectF(area.left(), area.top() - 24, area.width(), 20), Qt::AlignLeft | Qt::AlignVCenter,
+                   tr("Reference frame over source frame"));
   const auto spot = [&](double source, double reference) {
     return QPointF(area.left() + source / across * area.width(),
                    area.bottom() - reference / up * area.height());
@@ -159,10 +168,8 @@ void WarpPlot::paint_energy(QPainter& painter, const QRectF& area) {
   const double low = 0, high = std::max(1e-12, *std::max_element(energy.begin(), energy.end())) * 1.05;
   paint_axis(painter, area, *theme_, static_cast<double>(energy.size() - 1), low, high, QString());
   painter.setPen(theme_->text);
-  painter.drawText(QRectF(area.left(), area.top() - 22, area.width(), 20), Qt::AlignLeft | Qt::AlignVCenter,
-                   tr("Energy after each half-step: %1 to %2")
-                       .arg(energy.front(), 0, 'g', 4)
-                       .arg(energy.back(), 0, 'g', 4));
+  painter.drawText(QRectF(area.left(), area.top() - 24, area.width(), 20), Qt::AlignLeft | Qt::AlignVCenter,
+                   tr("Energy: %1 to %2").arg(plain_number(energy.front()), plain_number(energy.back())));
   QPolygonF line;
   for (std::size_t i = 0; i < energy.size(); ++i)
     line << QPointF(

@@ -142,13 +142,13 @@ void FilesPanel::fill() {
   };
   auto* recent = section(tr("Recent graphs"));
   for (const QString& path : user_settings()->value("recent").toStringList())
-    if (QFile::exists(path)) add(recent, path, QFileInfo(path).fileName(), Sign::open);
+    if (QFile::exists(path)) add(recent, path, QFileInfo(path).fileName().remove(".kg.json"), Sign::graph);
   auto* examples = section(tr("Examples"));
   const QString folder = examples_folder();
   if (!folder.isEmpty())
     for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"}, QDir::Files, QDir::Name))
       add(examples, file.absoluteFilePath(), file.fileName().remove(".kg.json").replace('_', ' '),
-          Sign::open);
+          Sign::graph);
   // The clips beside the graph, or of the examples where there is no graph.
   const QString clips = session_.path().isEmpty() ? folder : folder_;
   auto* found = section(tr("Clips"));

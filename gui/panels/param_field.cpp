@@ -7,11 +7,11 @@
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QLineEdit>
 #include <QToolButton>
 #include <QWheelEvent>
 
 #include "gui/panels/arithmetic.h"
+#include "gui/panels/text_field.h"
 
 namespace kinegraph {
 namespace {
@@ -25,13 +25,6 @@ class Still : public Widget {
  protected:
   void wheelEvent(QWheelEvent* event) override { event->ignore(); }
 };
-
-QHBoxLayout* row_of(QWidget* field) {
-  auto* row = new QHBoxLayout(field);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(4);
-  return row;
-}
 
 class BooleanField : public ParamField {
  public:
@@ -93,35 +86,6 @@ class ChoiceField : public ParamField {
   }
   ParamType type_;
   Still<QComboBox>* box_;
-  QString shown_;
-};
-
-class TextField : public ParamField {
- public:
-  TextField(const Param& param, QWidget* parent)
-      : ParamField(parent), type_(param), line_(new QLineEdit(this)) {
-    row_of(this)->addWidget(line_);
-    line_->setAccessibleName(QString::fromStdString(param.name));
-    line_->setPlaceholderText(QString::fromStdString(described(param)));
-    setFocusProxy(line_);
-    connect(line_, &QLineEdit::editingFinished, this, [this] {
-      if (line_->text() == shown_) return;
-      QString why;
-      if (const auto value = typed_value(type_, line_->text(), &why))
-        emit edited(*value);
-      else
-        emit wrong(why);
-    });
-  }
-  void show_value(const Json& value) override {
-    shown_ = typed_text(value);
-    line_->setText(shown_);
-  }
-  bool is_being_edited() const override { return line_->hasFocus() && line_->text() != shown_; }
-
- protected:
-  ParamType type_;
-  QLineEdit* line_;
   QString shown_;
 };
 

@@ -14,13 +14,14 @@
 
 #include "graph/nested.h"
 #include "gui/canvas/node_painter.h"
+#include "gui/panels/problem_text.h"
 #include "gui/viewer/looked_at.h"
 #include "nodes/motion/motion.h"
 
 namespace kinegraph {
 namespace {
 
-constexpr int label_width = 108;
+constexpr int least_label = 80, most_label = 140;  // a column as wide as its longest name
 
 QLabel* faint_label(const QString& text, QWidget* parent) {
   auto* label = new QLabel(text, parent);
@@ -165,6 +166,14 @@ void ParameterPanel::build(const NodeType& known) {
   context.folder = session_.folder();
   context.written_path = [this](const QString& path) { return session_.written_path(path); };
   context.joints = [this] { return joints(); };
+  QFont bold = font();
+  bold.setBold(true);
+  int label_width = least_label;
+  for (const Param& param : known.params)
+    if (!is_wide(param))
+      label_width = std::max(label_width,
+                             QFontMetrics(bold).horizontalAdvance(QString::fromStdString(param.name) + " ↗"));
+  label_width = std::min(label_width + 6, most_label);
   for (const Param& param : known.params) {
     const std::string name = param.name;
     Row row;
@@ -260,11 +269,12 @@ void ParameterPanel::refresh_state() {
     const QColor color = problem.severity == Severity::error     ? theme_->error
                          : problem.severity == Severity::warning ? theme_->warning
                                                                  : theme_->faint_text;
-    QString line = QString::fromStdString(problem.message).toHtmlEscaped();
+    QString line = problem_text(problem).toHtmlEscaped();
     if (const std::string& where = problem.param.empty() ? problem.port : problem.param; !where.empty())
       line = "<b>" + QString::fromStdString(where).toHtmlEscaped() + "</b>: " + line;
-    if (!problem.hint.empty())
-      line += " – <i>" + QString::fromStdString(problem.hint).toHtmlEscaped() + "</i>";
+    if (const QString advice = advice_on(problem); !advice.isEmpty())
+      line +=
+          QString("<br><span style='color:%1'>%2</span>").arg(theme_->text.name(), advice.toHtmlEscaped());
     // The structure's check and the run may say the same of one parameter in other words.
     if (!said.insert(problem.code + "\n" + problem.param + problem.port +
                      (problem.param.empty() ? "\n" + problem.message : std::string()))

@@ -1,16 +1,15 @@
 // A joint pattern: typed, or put together by ticking joints in the skeleton's tree.
-#include <QFrame>
-#include <QHBoxLayout>
+#include <QGuiApplication>
 #include <QHeaderView>
 #include <QLabel>
-#include <QLineEdit>
 #include <QMenu>
 #include <QToolButton>
 #include <QTreeWidget>
+#include <QVBoxLayout>
 #include <QWidgetAction>
 
 #include "graph/work.h"
-#include "gui/panels/param_field.h"
+#include "gui/panels/text_field.h"
 #include "nodes/motion/joint_pattern.h"
 
 namespace kinegraph {
@@ -55,36 +54,18 @@ QString pattern_of(const Joints& joints, const std::vector<bool>& ticked) {
   return parts.join(", ");
 }
 
-class PatternField : public ParamField {
+class PatternField : public TextField {
  public:
   PatternField(const Param& param, const FieldContext& context, QWidget* parent)
-      : ParamField(parent), type_(param), context_(context), line_(new QLineEdit(this)) {
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(4);
-    row->addWidget(line_, 1);
-    line_->setAccessibleName(QString::fromStdString(param.name));
+      : TextField(param, parent), context_(context) {
     line_->setPlaceholderText(tr("joints: *Leg*, Spine>, -Head"));
-    setFocusProxy(line_);
     auto* button = new QToolButton(this);
     button->setText(tr("Joints"));
     button->setAccessibleName(tr("Choose joints for %1").arg(QString::fromStdString(param.name)));
-    row->addWidget(button);
+    button->setToolTip(tr("Choose joints in the skeleton's tree"));
+    layout()->addWidget(button);
     connect(button, &QToolButton::clicked, this, [this, button] { open_tree(button); });
-    connect(line_, &QLineEdit::editingFinished, this, [this] {
-      if (line_->text() == shown_) return;
-      QString why;
-      if (const auto value = typed_value(type_, line_->text(), &why))
-        emit edited(*value);
-      else
-        emit wrong(why);
-    });
   }
-  void show_value(const Json& value) override {
-    shown_ = typed_text(value);
-    line_->setText(shown_);
-  }
-  bool is_being_edited() const override { return line_->hasFocus() && line_->text() != shown_; }
 
  private:
   void open_tree(QWidget* below) {
@@ -113,10 +94,24 @@ class PatternField : public ParamField {
     tree->expandAll();
     if (joints.empty()) new QTreeWidgetItem(tree, {tr("Link a motion to see its joints.")});
     bool changed = false;
-    connect(tree, &QTreeWidget::itemClicked, tree, [&](QTreeWidgetItem*) { changed = true; });
-    connect(tree, &QTreeWidget::itemChanged, tree, [&](QTreeWidgetItem*) { changed = true; });
+    // A tick goes down the branch, as limbs are chosen more often than single joints.
+    connect(tree, &QTreeWidget::itemChanged, tree, [&](QTreeWidgetItem* item) {
+      changed = true;
+      if (QGuiApplication::keyboardModifiers() & Qt::ControlModifier) return;
+      for (int i = 0; i < item->childCount(); ++i) item->child(i)->setCheckState(0, item->checkState(0));
+    });
+    auto* box = new QWidget;
+    auto* column = new QVBoxLayout(box);
+    column->setContentsMargins(4, 4, 4, 4);
+    column->addWidget(tree);
+    if (!joints.empty()) {
+      auto* words = new QLabel(tr("A tick takes the whole branch; with Ctrl only the joint."), box);
+      words->setObjectName("faint");
+      words->setMargin(4);
+      column->addWidget(words);
+    }
     auto* action = new QWidgetAction(&menu);
-    action->setDefaultWidget(tree);
+    action->setDefaultWidget(box);
     menu.addAction(action);
     menu.exec(below->mapToGlobal(QPoint(0, below->height())));
     if (!changed || joints.empty()) return;
@@ -136,10 +131,7 @@ class PatternField : public ParamField {
     return chosen_joints(shown_.toStdString(), skeleton, type_.name, work);
   }
 
-  ParamType type_;
   FieldContext context_;
-  QLineEdit* line_;
-  QString shown_;
 };
 
 }  // namespace

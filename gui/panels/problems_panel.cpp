@@ -4,7 +4,11 @@
 #include <QLabel>
 #include <QPainter>
 #include <QStackedLayout>
+#include <QStyledItemDelegate>
+#include <algorithm>
 #include <set>
+
+#include "gui/panels/problem_text.h"
 
 namespace kinegraph {
 namespace {
@@ -19,6 +23,21 @@ QIcon mark(const QColor& color) {
   p.drawEllipse(5, 5, 14, 14);
   return QIcon(pixmap);
 }
+
+// Rows as high as their longest wrapped text.
+class WrappedRows : public QStyledItemDelegate {
+ public:
+  explicit WrappedRows(QTreeWidget* list) : QStyledItemDelegate(list), list_(list) {}
+  QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    const int beside = index.column() == 0 ? 34 : 10, width = list_->columnWidth(index.column()) - beside;
+    const QRect words = option.fontMetrics.boundingRect(QRect(0, 0, std::max(40, width), 2000),
+                                                        Qt::TextWordWrap, index.data().toString());
+    return QSize(words.width() + beside, words.height() + 6);
+  }
+
+ private:
+  QTreeWidget* list_;
+};
 
 }  // namespace
 
@@ -39,10 +58,15 @@ ProblemsPanel::ProblemsPanel(Session& session, Evaluation& evaluation, QWidget* 
   list_->setAccessibleName(tr("Problems"));
   list_->setHeaderLabels({tr("Node"), tr("Problem"), tr("What to do")});
   list_->setRootIsDecorated(false);
-  list_->setUniformRowHeights(true);
-  list_->header()->setStretchLastSection(true);
+  list_->setWordWrap(true);
+  list_->setItemDelegate(new WrappedRows(list_));
+  list_->header()->setStretchLastSection(false);
+  list_->header()->setSectionResizeMode(1, QHeaderView::Stretch);
+  list_->header()->setSectionResizeMode(2, QHeaderView::Stretch);
   list_->setColumnWidth(0, 150);
-  list_->setColumnWidth(1, 420);
+  // Rows are as high as their wrapped words, which change with the columns.
+  connect(list_->header(), &QHeaderView::sectionResized, this,
+          [this] { QTimer::singleShot(0, list_, &QTreeWidget::doItemsLayout); });
   const auto go = [this](QTreeWidgetItem* item) {
     const QString node = item->data(0, Qt::UserRole).toString();
     if (!node.isEmpty()) emit go_to(node);
@@ -77,10 +101,7 @@ void ProblemsPanel::fill() {
     QString where = QString::fromStdString(node);
     if (const std::string& part = problem.port.empty() ? problem.param : problem.port; !part.empty())
       where += "." + QString::fromStdString(part);
-    QString what = QString::fromStdString(problem.message);
-    if (!problem.joint.empty()) what += tr(", joint %1").arg(QString::fromStdString(problem.joint));
-    if (problem.frame) what += tr(", frame %1").arg(*problem.frame);
-    auto* item = new QTreeWidgetItem({where, what, QString::fromStdString(problem.hint)});
+    auto* item = new QTreeWidgetItem({where, problem_text(problem), advice_on(problem)});
     item->setIcon(0, mark(problem.severity == Severity::error     ? theme_->error
                           : problem.severity == Severity::warning ? theme_->warning
                                                                   : theme_->accent));

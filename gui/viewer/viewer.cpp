@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/panels/problem_text.h"
 #include "gui/viewer/looked_at.h"
 #include "gui/viewer/motion_scene.h"
 #include "gui/viewer/stage.h"
@@ -465,7 +466,8 @@ void Viewer::update_words() {
       words = tr("%1 failed.").arg(name);
       for (const Diagnostic& problem : status->diagnostics)
         if (problem.severity == Severity::error) {
-          words += "\n" + QString::fromStdString(problem.message);
+          words += "\n" + problem_text(problem);
+          if (const QString advice = advice_on(problem); !advice.isEmpty()) words += "\n\n" + advice;
           break;
         }
     } else if (status && status->state == State::blocked) {

@@ -43,6 +43,12 @@ void draw(QPainter& p, Sign sign, const Theme& theme) {
       p.setBrush(p.pen().color());
       p.drawChord(QRectF(3, 3, 10, 10), 90 * 16, 180 * 16);
       break;
+    case Sign::graph:
+      for (const QPointF& at : {QPointF(1.5, 2.5), QPointF(1.5, 9.5), QPointF(10, 6)})
+        p.drawRoundedRect(QRectF(at, QSizeF(4.5, 4)), 0.8, 0.8);
+      p.drawPolyline(QPolygonF({{6, 4.5}, {8, 4.5}, {8, 8}, {10, 8}}));
+      p.drawPolyline(QPolygonF({{6, 11.5}, {8, 11.5}, {8, 8}}));
+      break;
     case Sign::open:
     case Sign::folder:
       p.drawPolygon(QPolygonF({{2, 4}, {6, 4}, {7.5, 5.5}, {14, 5.5}, {14, 12.5}, {2, 12.5}}));

@@ -13,6 +13,7 @@ enum class Sign {
   redo,
   add,
   theme,
+  graph,
   open,
   save,
   reset,

@@ -154,13 +154,9 @@ QToolBar#viewer_bar { spacing: 1px; padding: 3px 4px; } QToolBar#viewer_bar > QT
 QToolButton:hover { background: %2; } QToolButton:checked { background: %6; }
 QPushButton { background: %2; border: 1px solid %3; border-radius: 4px; padding: 5px 14px; }
 QPushButton:hover { border-color: %5; } QPushButton:default { border-color: %5; } QPushButton:disabled { color: %7; }
-QLineEdit, QPlainTextEdit, QSpinBox, QDoubleSpinBox, QComboBox { background: %8; border: 1px solid %3; border-radius: 4px; padding: 3px 6px; selection-background-color: %6; }
+QLineEdit, QPlainTextEdit, QComboBox { background: %8; border: 1px solid %3; border-radius: 4px; padding: 3px 6px; selection-background-color: %6; }
 QComboBox::drop-down { border: none; width: 18px; }
 QComboBox::down-arrow { image: url(:/kinegraph/arrow_down.png); width: 10px; height: 10px; }
-QSpinBox::up-button, QSpinBox::down-button { border: none; width: 18px; background: transparent; }
-QSpinBox::up-button:hover, QSpinBox::down-button:hover { background: %3; }
-QSpinBox::up-arrow { image: url(:/kinegraph/arrow_up.png); width: 10px; height: 10px; }
-QSpinBox::down-arrow { image: url(:/kinegraph/arrow_down.png); width: 10px; height: 10px; }
 QComboBox QAbstractItemView { background: %2; border: 1px solid %3; selection-background-color: %6; outline: none; }
 kinegraph--ParamField QToolButton { background: %2; border: 1px solid %3; padding: 3px 8px; }
 kinegraph--ParamField QToolButton:hover { border-color: %5; }
@@ -171,7 +167,7 @@ QFrame#search_box { background: %2; border: 1px solid %5; border-radius: 6px; }
 QFrame#notice_bar { background: %2; border-bottom: 2px solid %5; }
 QScrollArea#parameter_rows, QScrollArea#parameter_rows > QWidget > QWidget { background: transparent; }
 QCheckBox:focus { border: 1px solid %5; border-radius: 3px; }
-QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QTreeView:focus, QListView:focus, QTableView:focus, QSlider:focus { border: 1px solid %5; }
+QLineEdit:focus, QPlainTextEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QTreeView:focus, QListView:focus, QTableView:focus, QSlider:focus { border: 1px solid %5; }
 QTreeView, QListView, QTableView { background: %8; border: 1px solid %3; border-radius: 4px; }
 QHeaderView::section { background: %1; border: none; border-bottom: 1px solid %3; padding: 4px 6px; }
 QTabBar::tab { padding: 6px 12px; border: none; border-bottom: 2px solid transparent; color: %7; }

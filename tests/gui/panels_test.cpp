@@ -3,10 +3,12 @@
 #include <QAbstractButton>
 #include <QAbstractSlider>
 #include <QComboBox>
+#include <QFile>
 #include <QTreeWidget>
 
 #include "gui/canvas/fuzzy.h"
 #include "gui/panels/arithmetic.h"
+#include "gui/panels/problem_text.h"
 #include "gui/panels/variants.h"
 #include "tests/gui/editor.h"
 
@@ -75,6 +77,32 @@ TEST(EditorParameters, DraggingASliderAppliesLiveAndIsOneStep) {
   EXPECT_EQ(editor.session().history().position(), steps + 1);
   editor.session().undo();
   EXPECT_FALSE(editor.document().nodes.at(gait).params.count("bounce"));
+}
+
+TEST(EditorProblems, ADamagedClipIsToldWithItsLineAndWhatToDo) {
+  const Diagnostic damaged =
+      error("bad-number", "a number of OFFSET expected").in_file("takes/walk.bvh", {4, 12});
+  EXPECT_EQ(problem_text(damaged), "walk.bvh, line 4: a number of OFFSET expected");
+  EXPECT_TRUE(advice_on(damaged).contains("Mend that line")) << qPrintable(advice_on(damaged));
+  EXPECT_EQ(advice_on(error("x", "y").hinting("link it")), "link it");
+  EXPECT_EQ(advice_on(error("x", "y")), "");
+}
+
+TEST(EditorProblems, LongAdviceIsWrappedAndNotCut) {
+  Editor editor;
+  editor.window.resize(1280, 800);
+  QFile file(editor.folder.filePath("damaged.bvh"));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write("HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0\n}\n");
+  file.close();
+  editor.canvas().add("Load", {0, 0}, {}, {{"file", Json(file.fileName().toStdString())}});
+  editor.window.show_dock("Problems");
+  ASSERT_TRUE(editor.wait_for_evaluation());
+  auto* list = editor.window.findChild<QTreeWidget*>("problem_list");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return list->topLevelItemCount() > 0; }, 5000));
+  QTest::qWait(100);
+  const QRect row = list->visualItemRect(list->topLevelItem(0));
+  EXPECT_GT(row.height(), 2 * list->fontMetrics().height());
 }
 
 TEST(EditorEvaluation, TheCurrentNodeIsEvaluatedAndAnEditAsksAgain) {

@@ -66,6 +66,19 @@ TEST(ViewerComponents, AClickAndAButtonTakeAComponentAway) {
   dock.keep_picture("components_light");
 }
 
+TEST(ViewerComponents, AllFiguresStandInOneRowBelowTheGraph) {
+  OpenDock dock;
+  ASSERT_TRUE(dock.ready());
+  dock.components->setFixedSize(836, 230);  // its room in a window of 1280 x 800
+  ASSERT_TRUE(ViewingWindow::until([&] { return dock.components->height() == 230; }));
+  ViewingWindow::until([&] { return dock.components->grid().height() <= 230; });
+  const ComponentsGrid& grid = dock.components->grid();
+  for (int component = 1; component < 5; ++component)
+    EXPECT_EQ(grid.tile(component).top(), grid.tile(0).top()) << component;
+  EXPECT_LE(grid.tile(4).right(), grid.width());
+  EXPECT_LE(grid.height(), 230);
+}
+
 TEST(ViewerComponents, ASliderIsOneEntryAndOneStepOfUndo) {
   OpenDock dock;
   ASSERT_TRUE(dock.ready());

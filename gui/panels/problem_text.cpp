@@ -1,0 +1,41 @@
+#include "gui/panels/problem_text.h"
+
+#include <QFileInfo>
+#include <QObject>
+
+namespace kinegraph {
+namespace {
+
+bool of_a_clip(const Diagnostic& problem) {
+  return !problem.file.empty() && !QString::fromStdString(problem.file).endsWith(".kg.json");
+}
+
+}  // namespace
+
+QString problem_text(const Diagnostic& problem) {
+  QString text = QString::fromStdString(problem.message);
+  if (!problem.joint.empty()) text += QObject::tr(", joint %1").arg(QString::fromStdString(problem.joint));
+  if (problem.frame) text += QObject::tr(", frame %1").arg(*problem.frame);
+  if (of_a_clip(problem) && problem.place.line > 0) {
+    const QString name = QFileInfo(QString::fromStdString(problem.file)).fileName();
+    text = QObject::tr("%1, line %2: %3").arg(name).arg(problem.place.line).arg(text);
+  }
+  return text;
+}
+
+QString advice_on(const Diagnostic& problem) {
+  const QString hint = QString::fromStdString(problem.hint);
+  if (!hint.isEmpty() || !of_a_clip(problem) || problem.severity != Severity::error) return hint;
+  const QString name = QFileInfo(QString::fromStdString(problem.file)).fileName();
+  return problem.place.line > 0
+             ? QObject::tr(
+                   "The file is damaged. Mend that line in a text editor, export the clip again, or choose "
+                   "another file; %1 is read again as soon as it changes.")
+                   .arg(name)
+             : QObject::tr(
+                   "The file is damaged or of another kind. Export the clip again or choose another file; "
+                   "%1 is read again as soon as it changes.")
+                   .arg(name);
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,14 @@
+// What the window says of a diagnostic, everywhere in the same words.
+#pragma once
+#include <QString>
+
+#include "graph/diagnostic.h"
+
+namespace kinegraph {
+
+// What was found, with joint, frame, and the line of the file where they are known.
+QString problem_text(const Diagnostic& problem);
+// What to do about it: the hint that came with it; for a file that can't be read, how to go on.
+QString advice_on(const Diagnostic& problem);
+
+}  // namespace kinegraph
