@@ -7,6 +7,7 @@
 
 #include "graph/diagnostic.h"
 #include "nodes/feet/ankle_targets.h"
+#include "nodes/feet/blending.h"
 #include "nodes/feet/foot_track.h"
 #include "nodes/feet/leg_solver.h"
 #include "nodes/feet/plant_positions.h"
@@ -15,6 +16,8 @@
 
 namespace kinegraph {
 namespace {
+
+constexpr double stretch_blend = 0.06;  // s; longer ones would carry a stretch that grows at a plant's end on
 
 // World orientation of what stands above a joint.
 Quat above(const Skeleton& skeleton, const WorldMotion& world, int joint, std::size_t t) {
@@ -55,7 +58,9 @@ FootskateResult clean_footskate(const Motion& motion, const Contacts& contacts, 
     targets.push_back(std::move(target));
   }
   work.progress(0.3);
-  const std::vector<Vec3> root = root_adjustment(world, feet, targets, motion.fps(), params.root_smoothing);
+  const double damping = params.knee_damping / degrees_per_radian;
+  const std::vector<Vec3> root =
+      root_adjustment(world, feet, targets, motion.fps(), {params.root_smoothing, damping}, work);
   work.progress(0.6);
 
   FootskateResult result;
@@ -63,8 +68,7 @@ FootskateResult clean_footskate(const Motion& motion, const Contacts& contacts, 
   // First all rotations, with each leg's stretch kept aside: most motions need no more tracks than they have.
   result.motion = motion.translates(0) ? motion : motion.with_translation(0);
   move_root(skeleton, root, result.motion);
-  std::vector<std::vector<double>> stretches(feet.size(), std::vector<double>(motion.frames(), 1.0));
-  const double damping = params.knee_damping / degrees_per_radian;
+  std::vector<std::vector<Vec3>> stretches(feet.size(), std::vector<Vec3>(motion.frames()));
   for (std::size_t f = 0; f < feet.size(); ++f) {
     const Leg& leg = feet[f].leg;
     for (std::size_t t = 0; t < motion.frames(); ++t) {
@@ -72,11 +76,13 @@ FootskateResult clean_footskate(const Motion& motion, const Contacts& contacts, 
       const Vec3 hip = world.position(leg.hip)[t], knee = world.position(leg.knee)[t],
                  ankle = feet[f].ankle[t];
       const LegChange change =
-          solve_leg(hip, knee, ankle, hip + root[t], ankle + targets[f].move[t], params.stretch, damping);
-      stretches[f][t] = change.stretch;
-      result.largest_stretch = std::max(result.largest_stretch, std::abs(change.stretch - 1));
-      if (targets[f].held[t] && weights[t] == 1 && change.residual > result.largest_residual) {
-        result.largest_residual = change.residual;
+          solve_leg(hip, knee, ankle, hip + root[t], ankle + targets[f].move[t], damping);
+      const double most = params.stretch;
+      stretches[f][t] = {std::clamp(change.stretch, 1 - most, 1 + most) - 1, 0, 0};
+      const double wanted = norm(ankle + targets[f].move[t] - hip - root[t]);
+      const double residual = std::abs(1 - (1 + stretches[f][t].x) / change.stretch) * wanted;
+      if (targets[f].held[t] && weights[t] == 1 && residual > result.largest_residual) {
+        result.largest_residual = residual;
         result.residual_frame = t;
         result.residual_joint = leg.ankle;
       }
@@ -93,13 +99,16 @@ FootskateResult clean_footskate(const Motion& motion, const Contacts& contacts, 
   }
   work.progress(0.9);
   for (std::size_t f = 0; f < feet.size(); ++f) {
-    const bool stretched =
-        std::any_of(stretches[f].begin(), stretches[f].end(), [](double s) { return s != 1; });
-    if (!stretched) continue;
+    // A swinging foot has no place to meet: its leg goes back to its length.
+    fill_smoothly(stretches[f], targets[f].held, motion.fps(), std::min(params.blend, stretch_blend));
+    double largest = 0;
+    for (const Vec3& stretch : stretches[f]) largest = std::max(largest, std::abs(stretch.x));
+    if (largest == 0) continue;
+    result.largest_stretch = std::max(result.largest_stretch, largest);
     for (int joint : links(skeleton, feet[f].leg.hip, feet[f].leg.ankle)) {
       if (!result.motion.translates(joint)) result.motion = result.motion.with_translation(joint);
       const Vec3Track track = result.motion.translation(joint);
-      for (std::size_t t = 0; t < motion.frames(); ++t) track.set(t, stretches[f][t] * track[t]);
+      for (std::size_t t = 0; t < motion.frames(); ++t) track.set(t, (1 + stretches[f][t].x) * track[t]);
     }
   }
   if (result.largest_residual > 0.001) {

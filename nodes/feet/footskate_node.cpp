@@ -48,7 +48,6 @@ NodeType footskate_node() {
   const FootskateParams defaults;
   NodeType type;
   type.name = "Footskate";
-  type.code_version = 2;
   type.category = "feet";
   type.help =
       "Holds planted feet on their places: the root helps a little, legs stretch a little, and nothing pops.";
@@ -75,7 +74,7 @@ NodeType footskate_node() {
   add_range_param(type);
   add_fade_param(type);
   add_amount_param(type);
-  type.code_version = 2;
+  type.code_version = 3;
   type.compute = clean;
   return type;
 }

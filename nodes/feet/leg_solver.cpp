@@ -23,28 +23,51 @@ double corner(double a, double b, double c) {
   return arc_cosine((a * a + b * b - c * c) / (2 * a * b));
 }
 
-}  // namespace
+double flexion_of(double thigh, double shank, double length) {
+  return pi - corner(thigh, shank, length);
+}
 
-LegChange solve_leg(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 new_hip, Vec3 new_ankle, double most,
-                    double damping) {
-  LegChange change;
-  const double thigh = norm(knee - hip), shank = norm(ankle - knee), length = norm(ankle - hip);
-  const double wanted = norm(new_ankle - new_hip);
-  if (thigh <= 0 || shank <= 0 || length <= 0 || wanted <= 0) {
-    change.residual = norm((new_ankle - new_hip) - (ankle - hip));
-    return change;
-  }
-  const Vec3 along = (ankle - hip) / length;
-  const Quat swing = smallest_turn(along, (new_ankle - new_hip) / wanted);
-  const Vec3 side = cross(along, knee - hip);
-  const double flexion = pi - corner(thigh, shank, length);
-
-  // The part that the knee takes: never to the last hundredth of the leg, where its angle has no slope.
+// What the knee makes of the length that is wanted of a leg: never more than 0.99 of thigh and shank, where
+// its angle has no slope. A leg that must become much shorter is bent, however straight it was: its knee
+// leaves the range where lengths pop.
+double bent_length(double thigh, double shank, double length, double wanted, double damping) {
   const double straight = 0.99 * (thigh + shank),
                folded = 1.02 * std::abs(thigh - shank) + 0.05 * (thigh + shank);
-  double bent = length + knee_gain(flexion, damping) * (wanted - length);
-  bent = length < straight ? std::min(bent, straight) : length;
-  bent = length > folded ? std::max(bent, folded) : length;
+  const double shorter = std::max(std::min(wanted, length), std::min(folded, length));
+  const double gain = knee_gain(flexion_of(thigh, shank, shorter), damping);
+  const double bent = length + gain * (wanted - length);
+  if (length >= straight && bent >= length) return length;
+  if (length <= folded && bent <= length) return length;
+  return std::clamp(bent, std::min(folded, length), std::max(straight, length));
+}
+
+}  // namespace
+
+LegReach leg_reach(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 new_hip, Vec3 new_ankle, double damping) {
+  LegReach reach;
+  const double thigh = norm(knee - hip), shank = norm(ankle - knee);
+  reach.length = reach.bent = norm(ankle - hip);
+  const double wanted = norm(new_ankle - new_hip);
+  if (thigh <= 0 || shank <= 0 || reach.length <= 0 || wanted <= 0) return reach;
+  reach.wanted = wanted;
+  reach.along = (new_ankle - new_hip) / wanted;
+  reach.bent = bent_length(thigh, shank, reach.length, wanted, damping);
+  const double step = 1e-4 * reach.length;
+  const double taken = bent_length(thigh, shank, reach.length, wanted + step, damping) -
+                       bent_length(thigh, shank, reach.length, wanted - step, damping);
+  reach.left_over = std::clamp(1 - taken / (2 * step), 0.0, 1.0);
+  return reach;
+}
+
+LegChange solve_leg(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 new_hip, Vec3 new_ankle, double damping) {
+  LegChange change;
+  const LegReach reach = leg_reach(hip, knee, ankle, new_hip, new_ankle, damping);
+  if (reach.wanted <= 0) return change;
+  const double thigh = norm(knee - hip), shank = norm(ankle - knee), length = reach.length;
+  const Vec3 along = (ankle - hip) / length;
+  const Quat swing = smallest_turn(along, reach.along);
+  const Vec3 side = cross(along, knee - hip);
+  double bent = reach.bent;
   Quat at_hip, at_ankle;
   if (bent != length && norm(side) > 1e-9) {
     const Vec3 axis = normalized(side);
@@ -55,8 +78,7 @@ LegChange solve_leg(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 new_hip, Vec3 new_ankl
   }
   change.thigh = swing * at_hip;
   change.shank = swing * at_ankle;
-  change.stretch = std::clamp(wanted / bent, 1 - most, 1 + most);
-  change.residual = std::abs(wanted - change.stretch * bent);
+  change.stretch = reach.wanted / bent;
   return change;
 }
 

@@ -6,15 +6,23 @@
 
 namespace kinegraph {
 
-struct LegChange {
-  Quat thigh, shank;    // world, before the thigh's and the shank's own orientation
-  double stretch = 1;   // of thigh and shin
-  double residual = 0;  // m, how far the ankle stays from its place
+// Of a leg bent otherwise and then stretched so that its ankle comes to a place. Metres.
+struct LegReach {
+  Vec3 along;            // from the new hip to the ankle's place, unit length
+  double length = 0;     // from hip to ankle as it was
+  double bent = 0;       // that after the knee took its share
+  double wanted = 0;     // from the new hip to the ankle's place; 0 = the leg has no length or none is wanted
+  double left_over = 1;  // of a small change of `wanted`, the part that the knee leaves to the stretch
 };
-// Hip, knee and ankle as they are; the new hip and ankle; all world metres. `most` is the largest |stretch -
-// 1|. `damping`: the knee's flexion in radians from which on it bends freely; at a third of it and under it
-// keeps its angle.
-LegChange solve_leg(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 new_hip, Vec3 new_ankle, double most,
-                    double damping);
+// Hip, knee and ankle as they are; the new hip and ankle; all world metres. `damping`: the knee's flexion in
+// radians, before or after the change, from which on it bends freely; at a third of it and under it keeps its
+// angle.
+LegReach leg_reach(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 new_hip, Vec3 new_ankle, double damping);
+
+struct LegChange {
+  Quat thigh, shank;   // world, before the thigh's and the shank's own orientation
+  double stretch = 1;  // of thigh and shin, with which the ankle meets its place
+};
+LegChange solve_leg(Vec3 hip, Vec3 knee, Vec3 ankle, Vec3 new_hip, Vec3 new_ankle, double damping);
 
 }  // namespace kinegraph

@@ -4,15 +4,24 @@
 #pragma once
 #include <vector>
 
+#include "graph/work.h"
 #include "nodes/feet/ankle_targets.h"
 #include "nodes/motion/kinematics.h"
 
 namespace kinegraph {
 
-// World translation of the root, frame by frame. `smoothing` in seconds.
-// Least Σ_t [ Σ_feet w (u · (m − r))² + c ‖r‖² ] + smoothing⁴ ‖r″‖²: u is the leg's direction, m the ankle's
-// move, r the root's.
+struct RootAdjustmentParams {
+  double smoothing = 0.08;     // s
+  double knee_damping = 1.57;  // rad, as in leg_reach
+};
+
+// World translation of the root, frame by frame:
+//   least Σ_t [ Σ_feet w e(r)² + c ‖r‖² ] + smoothing⁴ ‖r″‖²,
+// e being what the leg must stretch by when the root is moved by r, the ankle by its own move, and the knee
+// has taken its share; a planted leg's w grows with the part of the leg that e is, so that no leg stretches
+// much where all can by a little. Solved by a few linear steps (Gauss-Newton).
 std::vector<Vec3> root_adjustment(const WorldMotion& world, const std::vector<FootTrack>& feet,
-                                  const std::vector<AnkleTargets>& targets, double fps, double smoothing);
+                                  const std::vector<AnkleTargets>& targets, double fps,
+                                  const RootAdjustmentParams& params, Work& work);
 
 }  // namespace kinegraph

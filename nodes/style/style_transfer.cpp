@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "nodes/feet/detect_contacts.h"
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/encoded_root.h"
 #include "nodes/motion/half_angle.h"
@@ -231,18 +230,20 @@ void decode(const EncodedRoot& root, const StyleTransferParams& params, Motion& 
   }
 }
 
-// `changed` has its joints at full strength and travels as the source does. A motion that comes out of
-// TimeWarp holds frames and leaves some out: its feet jerk, no plant is found, and its root goes on while
-// they rest. Its factor is that of the sweep of its feet instead.
+// `changed` has its joints at full strength and travels as the source does. In a motion that comes out of
+// TimeWarp the root goes on while feet are held, so its factor is that of the sweep of its feet.
 double factor_for_planted_feet(const Motion& motion, const Motion& changed, const StyleTransferParams& params,
                                Work& work) {
   std::vector<bool> counted;
   for (double weight : params.weights) counted.push_back(weight != 0);
+  const bool holds = frames_shown(motion).size() < motion.frames();
   std::optional<double> factor;
   if (!find_legs(motion.skeleton()).empty()) {
-    const Contacts contacts = detect_contacts(motion, DetectContactsParams{}, work);
-    factor = holds_frames(motion) ? sweep_factor(motion, changed, contacts, counted, work)
-                                  : travel_factor(changed, contacts, counted, work);
+    const Contacts contacts = plants_of(motion, work);
+    const bool plants = std::any_of(contacts.points.begin(), contacts.points.end(),
+                                    [](const FootPoint& point) { return !runs_of(point.planted).empty(); });
+    if (plants && holds) factor = sweep_factor(motion, changed, contacts, counted, work);
+    if (plants && !holds) factor = travel_factor(changed, contacts, counted, work);
   }
   if (!factor) {
     work.report(warning("no-plants", "no planted feet to set the speed of travel by; it stays as it is")
@@ -250,10 +251,10 @@ double factor_for_planted_feet(const Motion& motion, const Motion& changed, cons
                     .hinting("set travel to printed for the reference's speed"));
     return 1;
   }
-  work.report(
-      info("travel-factor",
-           fmt::format("travel is {:.3f} times the motion's own, so that planted feet stand still", *factor))
-          .at_param("travel"));
+  const char* why = holds ? "as the steps of its feet became longer or shorter, in frames that a warp holds"
+                          : "so that planted feet slide least";
+  work.report(info("travel-factor", fmt::format("travel is {:.3f} times the motion's own, {}", *factor, why))
+                  .at_param("travel"));
   return *factor;
 }
 

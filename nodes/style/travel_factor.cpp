@@ -1,7 +1,12 @@
 #include "nodes/style/travel_factor.h"
 
 #include <algorithm>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <utility>
 
+#include "nodes/feet/detect_contacts.h"
 #include "nodes/motion/encoded_root.h"
 #include "nodes/motion/kinematics.h"
 
@@ -19,6 +24,52 @@ double height_of_low(const WorldMotion& world, const FootPoint& point) {
   const auto tenth = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 10);
   std::nth_element(heights.begin(), tenth, heights.end());
   return *tenth + low;
+}
+
+// What is told of its parts is not of the whole's concern.
+class Quiet : public Work {
+ public:
+  explicit Quiet(Work& work) : work_(work) {}
+  void check() override { work_.check(); }
+  void progress(double) override { work_.check(); }
+  void report(Diagnostic) override {}
+  void parallel(std::size_t count, std::size_t grain,
+                const std::function<void(std::size_t, std::size_t)>& body) override {
+    work_.parallel(count, grain, body);
+  }
+  std::shared_ptr<void> reserve(std::size_t bytes) override { return work_.reserve(bytes); }
+
+ private:
+  Work& work_;
+};
+
+template <class Values>
+Values gathered(const Values& values, const std::vector<std::size_t>& frames) {
+  Values out;
+  for (std::size_t t : frames) out.push_back(values[t]);
+  return out;
+}
+
+// Only the frames `shown`, each with its own travel.
+Motion in_its_own_time(const Motion& motion, const std::vector<std::size_t>& shown, Work& work) {
+  const Motion& from = motion;
+  EncodedRoot root = encode_root(from, work);
+  root.d_x = gathered(root.d_x, shown);
+  root.d_z = gathered(root.d_z, shown);
+  root.d_heading = gathered(root.d_heading, shown);
+  root.height = gathered(root.height, shown);
+  root.heading = gathered(root.heading, shown);
+  root.rho = gathered(root.rho, shown);
+  Motion out =
+      from.translates(0) ? from.empty_like(shown.size()) : from.with_translation(0).empty_like(shown.size());
+  for (int j = 1; j < motion.joints(); ++j) {
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      out.rotation(j).set(i, from.rotation(j)[shown[i]]);
+      if (from.translates(j)) out.translation(j).set(i, from.translation(j)[shown[i]]);
+    }
+  }
+  decode_root(root, out);
+  return out;
 }
 
 }  // namespace
@@ -44,19 +95,37 @@ std::optional<double> travel_factor(const Motion& motion, const Contacts& contac
   return -along / squared;
 }
 
-bool holds_frames(const Motion& motion) {
-  if (motion.frames() < 2 || motion.joints() < 2) return false;
-  std::vector<bool> moves(motion.frames());
-  bool any = false;
-  for (int j = 1; j < motion.joints(); ++j) {
-    const ConstQuatTrack q = motion.rotation(j);
-    for (std::size_t t = 1; t < motion.frames(); ++t) {
-      if (q[t] == q[t - 1]) continue;
-      moves[t] = true;
-      any = true;
-    }
+std::vector<std::size_t> frames_shown(const Motion& motion) {
+  std::vector<std::size_t> shown;
+  if (motion.frames() > 0) shown.push_back(0);
+  for (std::size_t t = 1; t < motion.frames(); ++t) {
+    bool moves = false;
+    for (int j = 1; j < motion.joints() && !moves; ++j)
+      moves = motion.rotation(j)[t] != motion.rotation(j)[t - 1];
+    if (moves) shown.push_back(t);
   }
-  return any && std::find(moves.begin() + 1, moves.end(), false) != moves.end();
+  if (shown.size() > 1) return shown;
+  shown.resize(motion.frames());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
+  return shown;
+}
+
+Contacts plants_of(const Motion& motion, Work& work) {
+  Quiet quiet(work);
+  const std::vector<std::size_t> shown = frames_shown(motion);
+  if (shown.size() == motion.frames()) return detect_contacts(motion, {}, quiet);
+  Contacts contacts = detect_contacts(in_its_own_time(motion, shown, quiet), {}, quiet);
+  contacts.frames = motion.frames();
+  for (FootPoint& point : contacts.points) {
+    std::vector<bool> planted(motion.frames());
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      const std::size_t end = i + 1 < shown.size() ? shown[i + 1] : motion.frames();
+      std::fill(planted.begin() + static_cast<std::ptrdiff_t>(shown[i]),
+                planted.begin() + static_cast<std::ptrdiff_t>(end), point.planted[i]);
+    }
+    point.planted = std::move(planted);
+  }
+  return contacts;
 }
 
 std::optional<double> sweep_factor(const Motion& before, const Motion& after, const Contacts& contacts,

@@ -18,9 +18,13 @@ namespace kinegraph {
 std::optional<double> travel_factor(const Motion& motion, const Contacts& contacts,
                                     const std::vector<bool>& counted, Work& work);
 
-// Whether the pose of some frame, the rotations of all joints but the root, is that of the frame before bit
-// for bit, as in a motion that TimeWarp has laid on a longer clock.
-bool holds_frames(const Motion& motion);
+// The frames whose pose, the rotations of all joints but the root, is not bit for bit that of the frame
+// before: all, but for a motion that TimeWarp has laid on a longer clock. All where nothing moves.
+std::vector<std::size_t> frames_shown(const Motion& motion);
+
+// What DetectContacts finds by its defaults. A motion that holds frames is looked at without them, since its
+// feet jerk while its root goes on; frames held are planted as the one they repeat. Reports nothing.
+Contacts plants_of(const Motion& motion, Work& work);
 
 // The factor for a motion whose frames are held and left out, whose root therefore doesn't fit its feet frame
 // by frame: how much longer the steps of low feet relative to the root have become from `before` to `after`,

@@ -26,9 +26,8 @@ TEST(LegSolver, PutsTheAnkleOnItsPlace) {
   for (double ahead : {0.001, 0.05, 0.2}) {
     const Vec3 knee = knee_bent_by(ahead), new_hip = hip + Vec3{0.01, -0.01, 0.02},
                place = ankle + Vec3{0.02, 0.01, -0.03};
-    const LegChange change = solve_leg(hip, knee, ankle, new_hip, place, 0.2, 1.0);
+    const LegChange change = solve_leg(hip, knee, ankle, new_hip, place, 1.0);
     EXPECT_NEAR(norm(reached(knee, new_hip, change) - place), 0, 1e-9) << ahead;
-    EXPECT_EQ(change.residual, 0);
   }
 }
 
@@ -36,7 +35,7 @@ TEST(LegSolver, KeepsAStraightKneesAngleAndBendsABentOne) {
   const Vec3 place = ankle + Vec3{0, 0.01, 0};
   for (auto [ahead, bends] : {std::pair{0.05, false}, std::pair{0.5, true}}) {
     const Vec3 knee = knee_bent_by(ahead);
-    const LegChange change = solve_leg(hip, knee, ankle, hip, place, 0.2, 1.5);
+    const LegChange change = solve_leg(hip, knee, ankle, hip, place, 1.5);
     const double before = knee_angle(knee - hip, ankle - knee);
     const double after = knee_angle(rotate(change.thigh, knee - hip), rotate(change.shank, ankle - knee));
     EXPECT_EQ(std::abs(after - before) > 0.003, bends) << ahead;
@@ -44,15 +43,8 @@ TEST(LegSolver, KeepsAStraightKneesAngleAndBendsABentOne) {
   }
 }
 
-TEST(LegSolver, TellsWhatStretchDoesNotAllow) {
-  const LegChange change =
-      solve_leg(hip, knee_bent_by(0.03), ankle, hip, ankle + Vec3{0, -0.1, 0}, 0.01, 1.5);
-  EXPECT_DOUBLE_EQ(change.stretch, 1.01);
-  EXPECT_GT(change.residual, 0.05);
-}
-
 TEST(LegSolver, ChangesNothingWhereNothingMoves) {
-  const LegChange change = solve_leg(hip, knee_bent_by(0.1), ankle, hip, ankle, 0.05, 1.5);
+  const LegChange change = solve_leg(hip, knee_bent_by(0.1), ankle, hip, ankle, 1.5);
   EXPECT_NEAR(turn(change.thigh), 0, 1e-7);
   EXPECT_NEAR(turn(change.shank), 0, 1e-7);
   EXPECT_NEAR(change.stretch, 1, 1e-12);

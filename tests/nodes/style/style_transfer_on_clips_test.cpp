@@ -1,10 +1,13 @@
 // StyleTransfer between every ordered pair of the CMU clips, which all have the same joints.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "nodes/style/style_transfer.h"
+#include "nodes/time/time_warp.h"
+#include "tests/nodes/feet/walks_and_runs.h"
 #include "tests/nodes/style/cmu_clips.h"
 #include "tests/nodes/style/independent_style_distance.h"
 
@@ -92,6 +95,28 @@ TEST(StyleTransferOnClips, OfAWalkBringsItsStyleNearByIndependentMeasure) {
     const auto after = independent::style_distance(result.motion, style, partner);
     EXPECT_GT(before.joints.size(), 20u);
     EXPECT_LT(after.mean, 0.05 * before.mean) << name;
+  }
+}
+
+bool told_of(const Diagnostics& told, const char* code) {
+  return std::any_of(told.begin(), told.end(), [&](const Diagnostic& one) { return one.code == code; });
+}
+
+// 16_45 runs: none of its feet rests for DetectContacts' 0.1 s.
+TEST(StyleTransferOnClips, TravelsAsBeforeWhereARunnersFeetDoNotRest) {
+  KINEGRAPH_NEEDS_MOCAP();
+  Alone work;
+  const Motion run = clip("cmu/asfamc/16_45.amc"), stride = clip("cmu/bvh/08_07.bvh");
+  const TimeWarpResult warped = time_warp(run, stride, {}, work);
+  for (const Motion* motion : {&run, &*warped.warped}) {
+    Alone told;
+    const StyleTransferResult result =
+        style_transfer(*motion, quat_stats(stride, {}, told), nullptr, StyleTransferParams{}, told);
+    EXPECT_EQ(result.travel_factor, 1);
+    EXPECT_TRUE(told_of(told.reported, "no-plants"));
+    EXPECT_FALSE(told_of(told.reported, "travel-factor")) << "nothing was set by planted feet";
+    EXPECT_FALSE(told_of(told.reported, "no-contacts"))
+        << "DetectContacts' own message, and not on this node";
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/gait/gait.h"
 
@@ -43,19 +45,42 @@ Motion held(const Motion& motion, std::size_t times) {
       out.rotation(j).set(t, motion.rotation(j)[t / times]);
       if (motion.translates(j)) out.translation(j).set(t, motion.translation(j)[t / times]);
     }
-    Vec3 place = out.translation(0)[t];
-    place.z = static_cast<double>(times) * motion.translation(0)[t / times].z;
+    const std::size_t frame = std::max<std::size_t>(1, t / times);
+    Vec3 place = motion.translation(0)[t / times];
+    const ConstVec3Track path = motion.translation(0);
+    if (t > 0) place.z = out.translation(0)[t - 1].z + path[frame].z - path[frame - 1].z;
     out.translation(0).set(t, place);
   }
   return out;
 }
 
-TEST(HoldsFrames, KnowsAMotionOnALongerClock) {
-  EXPECT_FALSE(holds_frames(at_speed(1)));
-  EXPECT_TRUE(holds_frames(held(at_speed(1), 2)));
+TEST(FramesShown, LeavesOutWhatALongerClockHolds) {
+  const Motion walk = at_speed(1);
+  EXPECT_EQ(frames_shown(walk).size(), walk.frames());
+  const std::vector<std::size_t> shown = frames_shown(held(walk, 2));
+  ASSERT_EQ(shown.size(), walk.frames());
+  for (std::size_t i = 0; i < shown.size(); ++i) EXPECT_EQ(shown[i], 2 * i);
+  const Motion still(walk.shared_skeleton(), std::make_shared<SourceFacts>(), 120, 50, {});
+  EXPECT_EQ(frames_shown(still).size(), 50u);
+}
+
+// TimeWarp repeats the delta of a frame that it holds.
+TEST(PlantsOf, FindsThemOnALongerClock) {
   Alone work;
-  Motion still(at_speed(1).shared_skeleton(), std::make_shared<SourceFacts>(), 120, 50, {});
-  EXPECT_FALSE(holds_frames(still));
+  const Motion walk = at_speed(1);
+  const Contacts own = plants_of(walk, work), longer = plants_of(held(walk, 2), work);
+  ASSERT_EQ(longer.frames, 2 * walk.frames());
+  std::size_t planted = 0, differ = 0;
+  for (std::size_t k = 0; k < own.points.size(); ++k) {
+    for (std::size_t t = 0; t < walk.frames(); ++t) {
+      planted += own.points[k].planted[t];
+      differ += own.points[k].planted[t] != longer.points[k].planted[2 * t];
+      EXPECT_EQ(longer.points[k].planted[2 * t], longer.points[k].planted[2 * t + 1]);
+    }
+  }
+  EXPECT_GT(planted, 100u);
+  EXPECT_LT(differ, planted / 20);
+  EXPECT_TRUE(work.reported.empty());
 }
 
 // The walk with its hips' swing halved has about half the steps.
