@@ -9,6 +9,10 @@
 #include "nodes/components/ica.h"
 #include "nodes/components/principal.h"
 #include "nodes/components/rebuild.h"
+#include "nodes/files/motion_file.h"
+#include "nodes/time/trim.h"
+#include "tests/mocap.h"
+#include "tests/nodes/files/plain_files.h"
 #include "tests/nodes/time/walks.h"
 
 namespace kinegraph {
@@ -51,11 +55,8 @@ void principal_and_whitening(benchmark::State& state) {
 BENCHMARK(principal_and_whitening)->Unit(benchmark::kMillisecond);
 
 // A clip of 1,000 frames: one value of ComponentEdit's slider, with the motion that comes out.
-void edit_slider(benchmark::State& state) {
+void slide(benchmark::State& state, const std::vector<std::shared_ptr<const Motion>>& clips) {
   Alone work;
-  const std::vector<std::shared_ptr<const Motion>> clips = {
-      std::make_shared<const Motion>(gait("walk", 1000 / 120.0, 120)),
-      std::make_shared<const Motion>(gait("sneak", 4, 120))};
   const std::vector<bool> all(static_cast<std::size_t>(clips[0]->joints()), true);
   IcaParams params;
   params.components = 5;
@@ -70,7 +71,26 @@ void edit_slider(benchmark::State& state) {
         motion_of(result.components, result.channels, result.components.segments[result.segment], {}, work));
   }
 }
+
+void edit_slider(benchmark::State& state) {
+  slide(state, {std::make_shared<const Motion>(gait("walk", 1000 / 120.0, 120)),
+                std::make_shared<const Motion>(gait("sneak", 4, 120))});
+}
 BENCHMARK(edit_slider)->Unit(benchmark::kMillisecond);
+
+// The same on boxing, 30 joints of which five have several links.
+void edit_slider_on_real_clip(benchmark::State& state) {
+  const std::string path = mocap("cmu/asfamc/17_10.amc");
+  if (!std::filesystem::exists(path)) {
+    state.SkipWithError("no motion capture");
+    return;
+  }
+  PlainFiles files;
+  Alone work;
+  const MotionFile file = read_motion_file(path, {}, files, work);
+  slide(state, {std::make_shared<const Motion>(trimmed(*file.motion(), {0, 1000}))});
+}
+BENCHMARK(edit_slider_on_real_clip)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace kinegraph
