@@ -21,7 +21,7 @@ NodeType component_motion_node() {
   NodeType type;
   type.name = "ComponentMotion";
   type.category = "components";
-  type.code_version = 2;
+  type.code_version = 3;
   type.help = "Shows what one component does, or several together, as a motion about the mean pose.";
   type.source = "Shapiro et al. 2006 eq. 3; Cao et al. 2003 eq. 8";
   type.keywords = {"ica", "look", "preview"};

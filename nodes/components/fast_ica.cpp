@@ -85,7 +85,7 @@ class Step {
   }
 
  private:
-  static constexpr int patience = 8;
+  static constexpr int patience = 40;
   double size_ = 1, least_ = 1;
   int waited_ = 0;
 };
@@ -108,13 +108,33 @@ FastIcaRun symmetric_run(const Rows& z, const Rows& start, const FastIcaParams& 
   return run;
 }
 
-// Takes out of w the rows found so far and makes it a unit vector [Gram-Schmidt].
-void make_new(Rows& w, const Rows& found, std::size_t count) {
+// Takes out of w the rows found so far [Gram-Schmidt].
+void take_out(Rows& w, const Rows& found, std::size_t count) {
   std::vector<double> shares(count);
   for (std::size_t i = 0; i < count; ++i) shares[i] = dot(w.row(0), found.row(i), w.columns);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < w.columns; ++j) w(0, j) -= shares[i] * found(i, j);
-  const double length = std::sqrt(dot(w.row(0), w.row(0), w.columns));
+}
+double length_of(const Rows& w) {
+  return std::sqrt(dot(w.row(0), w.row(0), w.columns));
+}
+// And makes it a unit vector.
+void make_new(Rows& w, const Rows& found, std::size_t count) {
+  const double before = length_of(w);
+  take_out(w, found, count);
+  if (!(length_of(w) > 1e-12 * before)) {  // nothing of it is new: the axis that is least among those found
+    std::size_t least = 0;
+    std::vector<double> squares(w.columns);
+    for (std::size_t j = 0; j < w.columns; ++j)
+      for (std::size_t i = 0; i < count; ++i) squares[j] += found(i, j) * found(i, j);
+    for (std::size_t j = 1; j < w.columns; ++j)
+      if (squares[j] < squares[least]) least = j;
+    for (std::size_t j = 0; j < w.columns; ++j) w(0, j) = j == least;
+    take_out(w, found, count);
+  }
+  // What is little keeps some of what was taken out, by rounding.
+  if (length_of(w) < 1e-3 * before) take_out(w, found, count);
+  const double length = length_of(w);
   for (double& x : w.data) x /= length;
 }
 

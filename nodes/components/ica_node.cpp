@@ -83,7 +83,7 @@ NodeType ica_node() {
   NodeType type;
   type.name = "ICA";
   type.category = "components";
-  type.code_version = 3;
+  type.code_version = 4;
   type.help =
       "Splits one or several clips, joined, into independent components: signals over time, each moving the "
       "whole body in its own way.";

@@ -121,6 +121,21 @@ Quat best_rotation(const std::vector<Vec3>& from, const std::vector<Vec3>& to, Q
   return normalized(nearer(prior * turn, prior));
 }
 
+namespace {
+
+// The smallest turn of `base` that aims what stands along `rest` along `link`, in the half-angle's form: the
+// vector part is the axis's, the scalar 1 + cos. Lengths are those of the two.
+Quat aimed(Quat base, Vec3 rest, double rest_length, Vec3 link, double link_length) {
+  const Vec3 now = rotate(base, rest);
+  const double lengths = rest_length * link_length, half = lengths + dot(now, link);
+  // Nearly opposite ones take more care.
+  if (!(half > 0.125 * lengths)) return normalized(smallest_turn(now, link) * base);
+  const Vec3 axis = cross(now, link);
+  return normalized(Quat{axis.x, axis.y, axis.z, half} * base);
+}
+
+}  // namespace
+
 PointsToRotations::PointsToRotations(const Skeleton& skeleton, const std::vector<bool>& known,
                                      const std::vector<bool>& turning)
     : skeleton_(skeleton), aims_(skeleton.joints.size()) {
@@ -139,7 +154,7 @@ void PointsToRotations::collect(int joint, std::vector<int> through, const std::
                                 std::vector<Aim>& aims) const {
   for (int child : skeleton_.children(joint)) {
     if (skeleton_.link_length(child) > 1e-9) {
-      if (known[child]) aims.push_back({child, through});
+      if (known[child]) aims.push_back({child, skeleton_.link_length(child), through});
     } else {
       auto further = through;
       further.push_back(child);
@@ -152,16 +167,23 @@ void PointsToRotations::frame(const std::vector<Vec3>& positions, const std::vec
                               const std::vector<Quat>& base_world, std::vector<Quat>& world) const {
   std::vector<Vec3> from, to;
   for (int j = 0; j < skeleton_.size(); ++j) {
+    const std::vector<Aim>& aims = aims_[j];
+    if (aims.size() == 1) {
+      const Vec3 link = positions[aims[0].target] - positions[j];
+      const double length = norm(link);
+      if (length >= 1e-9) {
+        world[j] = aimed(base_world[j], rest_of(aims[0], base_local), aims[0].length, link, length);
+        continue;
+      }
+    }
     from.clear();
     to.clear();
-    for (const Aim& aim : aims_[j]) {
+    for (const Aim& aim : aims) {
       const Vec3 link = positions[aim.target] - positions[j];
       const double length = norm(link);
       if (length < 1e-9) continue;
-      Vec3 rest = skeleton_.joints[aim.target].offset;
-      for (auto k = aim.through.rbegin(); k != aim.through.rend(); ++k) rest = rotate(base_local[*k], rest);
-      from.push_back(rest);
-      to.push_back(norm(rest) / length * link);
+      from.push_back(rest_of(aim, base_local));
+      to.push_back(aim.length / length * link);
     }
     if (from.size() >= 2) {
       world[j] = best_rotation(from, to, base_world[j]);
@@ -172,6 +194,12 @@ void PointsToRotations::frame(const std::vector<Vec3>& positions, const std::vec
       world[j] = parent < 0 ? base_world[j] : world[parent] * base_local[j];
     }
   }
+}
+
+Vec3 PointsToRotations::rest_of(const Aim& aim, const std::vector<Quat>& base_local) const {
+  Vec3 rest = skeleton_.joints[aim.target].offset;
+  for (auto k = aim.through.rbegin(); k != aim.through.rend(); ++k) rest = rotate(base_local[*k], rest);
+  return rest;
 }
 
 }  // namespace kinegraph

@@ -28,8 +28,10 @@ class PointsToRotations {
  private:
   struct Aim {
     int target;
+    double length;             // of the link at rest
     std::vector<int> through;  // joints between, all at this joint's place
   };
+  Vec3 rest_of(const Aim& aim, const std::vector<Quat>& base_local) const;
   void collect(int joint, std::vector<int> through, const std::vector<bool>& known,
                std::vector<Aim>& aims) const;
 

@@ -1,6 +1,7 @@
 #include "nodes/components/rows.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -41,11 +42,28 @@ Eigenpairs symmetric_eigen(const Rows& symmetric) {
   return out;
 }
 
+namespace {
+
+// U Vᵀ of a = U Σ Vᵀ: orthonormal however small Σ is.
+Rows polar_factor(const Rows& a) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto rows = static_cast<Eigen::Index>(a.rows), columns = static_cast<Eigen::Index>(a.columns);
+  const Eigen::MatrixXd matrix = Eigen::Map<const RowMajor>(a.data.data(), rows, columns);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  Rows out(a.rows, a.columns);
+  Eigen::Map<RowMajor>(out.data.data(), rows, columns) = svd.matrixU() * svd.matrixV().transpose();
+  return out;
+}
+
+}  // namespace
+
 Rows nearest_orthonormal(const Rows& a) {
   const Eigenpairs gram = symmetric_eigen(product(a, transposed(a)));
+  // Rows that are nearly dependent: A Aᵀ has lost what tells them apart.
+  if (!(gram.values.back() > 1e-6 * gram.values.front())) return polar_factor(a);
   Rows scaled = gram.vectors;  // V D^{-1/2} Vᵀ A, with V's columns the rows here
   for (std::size_t i = 0; i < scaled.rows; ++i) {
-    const double scale = 1 / std::sqrt(std::max(gram.values[i], 1e-300));
+    const double scale = 1 / std::sqrt(gram.values[i]);
     for (std::size_t j = 0; j < scaled.columns; ++j) scaled(i, j) *= scale;
   }
   return product(product(transposed(gram.vectors), scaled), a);

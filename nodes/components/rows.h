@@ -27,7 +27,8 @@ struct Eigenpairs {
 };
 Eigenpairs symmetric_eigen(const Rows& symmetric);
 
-// (A Aᵀ)^{-1/2} A: the orthonormal rows nearest to those of A.
+// (A Aᵀ)^{-1/2} A: the orthonormal rows nearest to those of A, which has no more rows than columns; also of
+// dependent rows, where what they leave open is filled somehow.
 Rows nearest_orthonormal(const Rows& a);
 
 }  // namespace kinegraph

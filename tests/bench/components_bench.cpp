@@ -18,6 +18,13 @@
 namespace kinegraph {
 namespace {
 
+std::shared_ptr<const Motion> real_motion(const std::string& name) {
+  PlainFiles files;
+  Alone work;
+  const MotionFile file = read_motion_file(mocap("cmu/asfamc/" + name + ".amc"), {}, files, work);
+  return std::make_shared<const Motion>(*file.motion());
+}
+
 // Laplace sources, mixed into 93 channels, with noise of 0.01: a set of 31 joints.
 Rows mixed(std::size_t sources, std::size_t frames) {
   std::mt19937 generator(1);
@@ -46,6 +53,31 @@ BENCHMARK(decompose_channels)
     ->Args({1000, 1})
     ->Args({10000, 1})
     ->Args({10000, 8});
+
+// The default starts on two real clips, joined.
+void decompose_real_clips(benchmark::State& state, const char* first, const char* second) {
+  if (!std::filesystem::exists(mocap("README.md"))) {
+    state.SkipWithError("no motion capture");
+    return;
+  }
+  Alone work;
+  const auto one = real_motion(first), other = real_motion(second);
+  const std::vector<bool> all(static_cast<std::size_t>(one->joints()), true);
+  const ChannelSpace space = space_of_motions(Representation::points, {one, other}, all, true, {}, work);
+  IcaParams params;
+  params.components = static_cast<int>(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(components_of_motions(space, {one, other}, params, work));
+}
+#define REAL_PAIR(a, b)                                         \
+  BENCHMARK_CAPTURE(decompose_real_clips, a##_with_##b, #a, #b) \
+      ->Unit(benchmark::kMillisecond)                           \
+      ->Arg(3)                                                  \
+      ->Arg(5)                                                  \
+      ->Arg(12)
+REAL_PAIR(16_31, 17_03);
+REAL_PAIR(07_05, 17_03);
+REAL_PAIR(16_45, 17_03);
+REAL_PAIR(16_45, 16_31);
 
 void principal_and_whitening(benchmark::State& state) {
   const Rows x = mixed(12, 10000);
@@ -80,15 +112,11 @@ BENCHMARK(edit_slider)->Unit(benchmark::kMillisecond);
 
 // The same on boxing, 30 joints of which five have several links.
 void edit_slider_on_real_clip(benchmark::State& state) {
-  const std::string path = mocap("cmu/asfamc/17_10.amc");
-  if (!std::filesystem::exists(path)) {
+  if (!std::filesystem::exists(mocap("README.md"))) {
     state.SkipWithError("no motion capture");
     return;
   }
-  PlainFiles files;
-  Alone work;
-  const MotionFile file = read_motion_file(path, {}, files, work);
-  slide(state, {std::make_shared<const Motion>(trimmed(*file.motion(), {0, 1000}))});
+  slide(state, {std::make_shared<const Motion>(trimmed(*real_motion("17_10"), {0, 1000}))});
 }
 BENCHMARK(edit_slider_on_real_clip)->Unit(benchmark::kMillisecond);
 

@@ -1,7 +1,8 @@
 // Writes, for scikit-learn to compare (fast_ica_agreement.py), whitened channels of two clips and the signals
-// that FastICA finds in them from the identity:
-//   fast_ica_signals FOLDER COMPONENTS CLIP CLIP
-// z.bin and NONLINEARITY_METHOD.bin, each COMPONENTS rows of doubles as the machine has them.
+// that FastICA finds in them from each of several starts (fast_ica.h):
+//   fast_ica_signals FOLDER COMPONENTS STARTS CLIP CLIP
+// z.bin, and of each start N startN.bin and NONLINEARITY_METHODN.bin: COMPONENTS rows of doubles as the machine
+// has them. Prints the names of those that did not converge.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -50,18 +51,25 @@ Rows channels_of_files(const std::vector<std::string>& paths) {
   return out;
 }
 
-void write_signals(const std::string& folder, std::size_t components, const std::vector<std::string>& clips) {
+void write_signals(const std::string& folder, std::size_t components, int starts,
+                   const std::vector<std::string>& clips) {
   Alone work;
   const Rows x = channels_of_files(clips);
   const Rows z = whiten(x, principal_components(x, work), components, work).z;
   write(folder + "/z.bin", z);
   constexpr const char* names[] = {"logcosh", "pow3", "gauss"};
-  for (int nonlinearity = 0; nonlinearity < 3; ++nonlinearity) {
-    for (bool symmetric : {true, false}) {
-      const FastIcaRun run = fast_ica(z, identity(components),
-                                      {static_cast<Nonlinearity>(nonlinearity), symmetric, 1e-8, 2000}, work);
-      write(folder + "/" + names[nonlinearity] + (symmetric ? "_parallel.bin" : "_deflation.bin"),
-            rotated(run.w, z));
+  for (int n = 0; n < starts; ++n) {
+    const Rows start = starting_rotation(components, n, 0);
+    write(folder + "/start" + std::to_string(n) + ".bin", start);
+    for (int nonlinearity = 0; nonlinearity < 3; ++nonlinearity) {
+      for (bool symmetric : {true, false}) {
+        const FastIcaRun run =
+            fast_ica(z, start, {static_cast<Nonlinearity>(nonlinearity), symmetric, 1e-8, 2000}, work);
+        const std::string name =
+            std::string(names[nonlinearity]) + (symmetric ? "_parallel" : "_deflation") + std::to_string(n);
+        write(folder + "/" + name + ".bin", rotated(run.w, z));
+        if (!run.converged) std::puts(name.c_str());
+      }
     }
   }
 }
@@ -70,12 +78,13 @@ void write_signals(const std::string& folder, std::size_t components, const std:
 }  // namespace kinegraph
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    std::fputs("usage: fast_ica_signals FOLDER COMPONENTS CLIP CLIP\n", stderr);
+  if (argc != 6) {
+    std::fputs("usage: fast_ica_signals FOLDER COMPONENTS STARTS CLIP CLIP\n", stderr);
     return 2;
   }
   try {
-    kinegraph::write_signals(argv[1], static_cast<std::size_t>(std::atoi(argv[2])), {argv[3], argv[4]});
+    kinegraph::write_signals(argv[1], static_cast<std::size_t>(std::atoi(argv[2])), std::atoi(argv[3]),
+                             {argv[4], argv[5]});
   } catch (const kinegraph::Failure& failure) {
     std::fprintf(stderr, "%s\n", failure.diagnostic().message.c_str());
     return 1;

@@ -45,19 +45,31 @@ inline Table channels_of(const Points& points, bool of_motions) {
     }
   return x;
 }
-// A motion's joints with root and heading taken out, by the tests' own kinematics.
-inline Table channels_of(const Motion& motion) {
-  const auto places = independent::positions_of(motion);
+// A motion's joints with root and heading taken out, by the tests' own kinematics; with `bones` given, its
+// links are as long as theirs (joints of the same names).
+inline Table channels_of(const Motion& motion, const Skeleton* bones = nullptr) {
+  const Skeleton& skeleton = motion.skeleton();
+  auto places = independent::positions_of(motion);
   const auto psi = independent::heading_of(motion).psi;
   Table x(3 * places.size(), std::vector<double>(motion.frames()));
-  for (std::size_t j = 0; j < places.size(); ++j)
-    for (std::size_t t = 0; t < motion.frames(); ++t) {
-      const Vec3 at = places[j][t] - places[0][t];
-      const double c = std::cos(psi[t]), s = std::sin(psi[t]);
-      x[3 * j][t] = c * at.x - s * at.z;
-      x[3 * j + 1][t] = at.y;
-      x[3 * j + 2][t] = s * at.x + c * at.z;
+  for (std::size_t t = 0; t < motion.frames(); ++t) {
+    std::vector<Vec3> at(places.size());
+    for (std::size_t j = 1; j < places.size(); ++j) {
+      const auto parent = static_cast<std::size_t>(skeleton.joints[j].parent);
+      const Vec3 link = places[j][t] - places[parent][t];
+      double scale = 1;
+      if (bones && norm(link) > 1e-9)
+        scale = norm(bones->joints[static_cast<std::size_t>(bones->find(skeleton.joints[j].name))].offset) /
+                norm(link);
+      at[j] = at[parent] + scale * link;
     }
+    const double c = std::cos(psi[t]), s = std::sin(psi[t]);
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      x[3 * j][t] = c * at[j].x - s * at[j].z;
+      x[3 * j + 1][t] = at[j].y;
+      x[3 * j + 2][t] = s * at[j].x + c * at[j].z;
+    }
+  }
   return x;
 }
 inline double farthest(const Table& a, const Table& b) {
