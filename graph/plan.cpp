@@ -134,6 +134,17 @@ class Planner {
     }
   }
 
+  // For "outer/inner": what of the inside can be set, and how.
+  std::optional<std::string> suggestion_inside(const std::string& name) const {
+    const auto outer = root_.document.nodes.find(name.substr(0, name.find('/')));
+    if (name.find('/') == std::string::npos || outer == root_.document.nodes.end() || !outer->second.nested)
+      return {};
+    std::string names;
+    if (const NodeType* type = known_type(registry_, outer->second))
+      for (const Param& param : type->params)
+        if (param.name != "file") names += (names.empty() ? " " : ", ") + outer->first + "." + param.name;
+    return "of a nested graph only what it publishes can be set:" + (names.empty() ? " nothing" : names);
+  }
   void read_set(const Link& target, const std::string& text) {
     const Document& document = root_.document;
     const auto node = document.nodes.find(target.node);
@@ -142,7 +153,7 @@ class Planner {
       for (const auto& [name, other] : document.nodes) names.push_back(name);
       return complain(error("unknown-node",
                             fmt::format("--set {}: there is no node \"{}\"", to_text(target), target.node))
-                          .hinting(suggestion(target.node, names)),
+                          .hinting(suggestion_inside(target.node).value_or(suggestion(target.node, names))),
                       "", true);
     }
     const NodeType* type = known_type(registry_, node->second);

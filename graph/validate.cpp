@@ -197,18 +197,23 @@ class Validator {
     if (!node.enabled || (type.role != Role::compute && !node.nested)) return;
     for (const InputPort& port : type.inputs)
       if (!port.optional && !node.inputs.count(port.name) && !is_published_input(name, port.name))
-        add(error("open-input", fmt::format("{} needs a link to its input \"{}\"", type.name, port.name))
+        open_input(
+            name, node,
+            error("open-input", fmt::format("{} needs a link to its input \"{}\"", type.name, port.name))
                 .at_port(port.name)
-                .hinting(fmt::format("link a {} to it: {}", fmt::join(port.types, " or a "), port.help)),
-            node.place, name);
+                .hinting(fmt::format("link a {} to it: {}", fmt::join(port.types, " or a "), port.help)));
     const bool linked = std::any_of(type.inputs.begin(), type.inputs.end(), [&](const InputPort& port) {
       return node.inputs.count(port.name) || is_published_input(name, port.name);
     });
     if (type.effect == Effect::writes && !type.inputs.empty() && !linked)
-      add(error("open-input", fmt::format("no input of this {} is linked", type.name))
-              .hinting(fmt::format("link what is to be written to one of {}",
-                                   fmt::join(type.input_names(), ", "))),
-          node.place, name);
+      open_input(name, node,
+                 error("open-input", fmt::format("no input of this {} is linked", type.name))
+                     .hinting(fmt::format("link what is to be written to one of {}",
+                                          fmt::join(type.input_names(), ", "))));
+  }
+  void open_input(const std::string& name, const Node& node, Diagnostic problem) {
+    if (options_.allow_presets && document_.nodes.size() == 1) problem.severity = Severity::info;
+    add(std::move(problem), node.place, name);
   }
 
   void check_misfits(const std::string& name, const Node& node, const NodeType& type) {

@@ -180,6 +180,10 @@ int compare_command(const Program& program, const CompareArguments& arguments) {
   for (const auto& rule : rules) {
     auto outcome = evaluate(rule, judged, b.metrics.get());
     if (!outcome.passed) code = exit_code::checks_failed;
+    for (Diagnostic reason : reasons_unmeasured(rule, judged, b.metrics.get())) {
+      reason.param.clear();
+      terminal.say(reason);
+    }
     checks.push_back(Json::Object{{"rule", rule.text},
                                   {"value", value_or_null(outcome.value)},
                                   {"limit", value_or_null(outcome.limit)},

@@ -45,6 +45,7 @@ int write_back(const Program& program, const std::string& path, const std::strin
 int fmt_command(const Program& program, const std::vector<std::string>& graphs, bool check) {
   using exit_code::graver;
   int code = exit_code::done;
+  std::size_t others = 0;  // not canonical
   for (const auto& graph : graphs) {
     bool piped = graph == "-";
     Opened opened;
@@ -67,6 +68,7 @@ int fmt_command(const Program& program, const std::vector<std::string>& graphs, 
     if (check) {
       if (before == after) continue;
       program.terminal.result(opened.shown + "\n");
+      ++others;
       code = graver(code, exit_code::failed);
     } else if (piped) {
       program.terminal.result(after);
@@ -74,6 +76,10 @@ int fmt_command(const Program& program, const std::vector<std::string>& graphs, 
       code = graver(code, write_back(program, graph, after));
     }
   }
+  if (others > 0)
+    program.terminal.message(
+        fmt::format("{} of {} not in canonical form; `kinegraph fmt` without --check writes it\n", others,
+                    graphs.size()));
   return code;
 }
 

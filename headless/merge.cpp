@@ -32,7 +32,8 @@ int merge_command(const Program& program, const MergeArguments& arguments) {
                              program.registry, "ours", "theirs", open_inside);
   for (const MergeConflict& conflict : merged.conflicts)
     program.terminal.message(
-        fmt::format("{}: {}\n", program.terminal.tinted_message("conflict", Tint::red), conflict.what));
+        fmt::format("{}: {}: {}\n", arguments.path.empty() ? arguments.out : arguments.path,
+                    program.terminal.tinted_message("conflict", Tint::red), conflict.what));
   try {
     write_file_atomically(absolute_path(arguments.out), merged.text);
   } catch (const Failure& failure) {

@@ -60,9 +60,12 @@ int validate_command(const Program& program, const ValidateArguments& arguments)
     Opened opened = open_graph(graph, program.registry);
     FileStore files;
     open_graphs_inside(opened, program.registry, variables, {}, files);
-    Diagnostics problems = all_problems(
-        opened, program.registry,
-        {.file = graph, .folder = opened.folder, .check_files = !arguments.no_files, .variables = variables});
+    Diagnostics problems = all_problems(opened, program.registry,
+                                        {.file = graph,
+                                         .folder = opened.folder,
+                                         .check_files = !arguments.no_files,
+                                         .allow_presets = true,
+                                         .variables = variables});
     for (const auto& problem : problems) tell(problem, graph);
     if (has_error(opened.problems)) continue;
     for (auto& problem : unused_variables(opened, variables, {}))

@@ -75,13 +75,16 @@ class PlanRun {
       if (planned(node).type) continue;
       log_.missing = true;
       log_.nodes[planned(node).name].diagnostics.push_back(
-          error("missing-node",
-                planned(node).missing_because.empty()
-                    ? "its type '" + planned(node).type_name + "' is not known, or newer than this program"
-                    : planned(node).missing_because)
+          error("missing-node", planned(node).missing_because.empty()
+                                    ? (world_.registry.find(planned(node).type_name)
+                                           ? "it was saved with a newer version of " + planned(node).type_name
+                                           : "there is no node type '" + planned(node).type_name + "'")
+                                    : planned(node).missing_because)
               .at_node(planned(node).name)
-              .hinting(planned(node).missing_because.empty() ? "`kinegraph nodes` lists the types there are"
-                                                             : "mend the graph file that it names"));
+              .hinting(!planned(node).missing_because.empty() ? "mend the graph file that it names"
+                       : world_.registry.find(planned(node).type_name)
+                           ? "a newer Kinegraph can run it"
+                           : "`kinegraph nodes` lists the types there are"));
     }
     Schedule schedule(world_, plan_, keys_, demands_, rules_, halt_, options_, callbacks_,
                       log_.threads_allowed);

@@ -1,5 +1,6 @@
 #include "graph/file/diff.h"
 
+#include <algorithm>
 #include <set>
 
 #include "graph/edit_draft.h"
@@ -134,6 +135,14 @@ Json to_json(const Diff& diff) {
       {"renamed", std::move(renamed)}, {"changes", std::move(changes)}, {"layout", diff.layout}};
 }
 
+namespace {
+// Which reads as one value; other lists grow and shrink by their elements.
+bool is_range_or_vector(const Json& list) {
+  return std::all_of(list.array().begin(), list.array().end(),
+                     [](const Json& element) { return element.is_number() || element.is_null(); });
+}
+}  // namespace
+
 std::string unit_lines(const Document& document) {
   std::string text;
   const auto add = [&](const Unit& unit) {
@@ -146,7 +155,7 @@ std::string unit_lines(const Document& document) {
       text += unit.name + ": " + type.string();
       if (!(version == Json(1))) text += " version " + compact(version);
       text += '\n';
-    } else if (value->is_array() && !value->array().empty()) {
+    } else if (value->is_array() && !value->array().empty() && !is_range_or_vector(*value)) {
       for (const Json& element : value->array()) text += name + ": " + compact(element) + '\n';
     } else if (unit.kind == Kind::node_input && value->is_string()) {
       text += name + " <- " + value->string() + '\n';

@@ -87,7 +87,8 @@ void find_conflict_markers(std::string_view text, const std::string& file, Diagn
         problems.push_back(
             error("conflict-markers", fmt::format("git's conflict marker {}", row.substr(0, 7)))
                 .in_file(file, {line, 1})
-                .hinting("resolve the merge; `kinegraph merge` does most of it"));
+                .hinting("finish the merge: keep a side at each marker, take the markers out, then kinegraph "
+                         "fmt"));
       inside = !row.starts_with(">>>>>>>");
     }
     start = end + 1;

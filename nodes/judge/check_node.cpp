@@ -16,27 +16,6 @@ void check_rule_text(std::string_view text) {
   parse_rule(text);
 }
 
-// A rule fails alike on a wrong name and on a number that could not be had; a person wants to know which.
-void tell_missing(const Rule& rule, const std::string& name, const char* of, const Metrics* metrics,
-                  Work& work) {
-  if (const Metric* metric = metrics ? metrics->find(name) : nullptr; metric && metric->value) return;
-  Diagnostic told;
-  if (!metrics) {
-    told = warning("no-baseline", "rule \"" + rule.text + "\" needs a baseline").hinting("link baseline");
-  } else if (metrics->find(name)) {
-    told =
-        warning("not-measured", "rule \"" + rule.text + "\" fails: " + of + name + " could not be measured")
-            .hinting("it needs something that is not there, such as a reference or plants");
-  } else {
-    std::vector<std::string> names;
-    for (const Metric& metric : metrics->all) names.push_back(metric.name);
-    told = warning("unknown-metric", "rule \"" + rule.text + "\" fails: there is no metric " + of + name)
-               .hinting(suggestion(name, names));
-  }
-  told.param = "rules";
-  work.report(std::move(told));
-}
-
 }  // namespace
 
 NodeType check_node() {
@@ -59,8 +38,8 @@ NodeType check_node() {
     constexpr double missing = std::numeric_limits<double>::quiet_NaN();
     for (const Rule& rule : rules) {
       const RuleOutcome outcome = evaluate(rule, metrics, baseline);
-      if (!outcome.value) tell_missing(rule, rule.name, "", &metrics, compute.work());
-      if (!outcome.limit) tell_missing(rule, rule.baseline, "baseline.", baseline, compute.work());
+      for (Diagnostic& reason : reasons_unmeasured(rule, metrics, baseline))
+        compute.work().report(std::move(reason));
       compute.rule(rule.text, outcome.value.value_or(missing), outcome.limit.value_or(missing),
                    outcome.passed);
     }

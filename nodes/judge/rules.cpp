@@ -131,4 +131,31 @@ RuleOutcome evaluate(const Rule& rule, const Metrics& metrics, const Metrics* ba
   return out;
 }
 
+Diagnostics reasons_unmeasured(const Rule& rule, const Metrics& metrics, const Metrics* baseline) {
+  Diagnostics reasons;
+  const auto look = [&](const std::string& name, const char* of, const Metrics* in) {
+    if (value_of(in, name)) return;
+    Diagnostic reason;
+    if (!in) {
+      reason = warning("no-baseline", fmt::format("rule \"{}\" needs a baseline", rule.text))
+                   .hinting("link baseline");
+    } else if (in->find(name)) {
+      reason = warning("not-measured",
+                       fmt::format("rule \"{}\" fails: {}{} could not be measured", rule.text, of, name))
+                   .hinting("it needs something that is not there, such as a reference or plants");
+    } else {
+      std::vector<std::string> names;
+      for (const Metric& metric : in->all) names.push_back(metric.name);
+      reason = warning("unknown-metric",
+                       fmt::format("rule \"{}\" fails: there is no metric {}{}", rule.text, of, name))
+                   .hinting(suggestion(name, names));
+    }
+    reason.param = "rules";
+    reasons.push_back(std::move(reason));
+  };
+  look(rule.name, "", &metrics);
+  if (!rule.baseline.empty()) look(rule.baseline, "baseline.", baseline);
+  return reasons;
+}
+
 }  // namespace kinegraph

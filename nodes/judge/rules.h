@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "graph/diagnostic.h"
 #include "nodes/motion/metrics.h"
 
 namespace kinegraph {
@@ -28,5 +29,10 @@ struct RuleOutcome {
 };
 // `baseline` may be null.
 RuleOutcome evaluate(const Rule& rule, const Metrics& metrics, const Metrics* baseline);
+
+// Why an outcome lacks its value or limit, of param "rules": a rule fails alike on a wrong name
+// ("unknown-metric", with the nearest), on a number that could not be had ("not-measured") and without a
+// baseline ("no-baseline"); a person wants to know which.
+Diagnostics reasons_unmeasured(const Rule& rule, const Metrics& metrics, const Metrics* baseline);
 
 }  // namespace kinegraph

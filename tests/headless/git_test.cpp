@@ -80,7 +80,7 @@ TEST_F(Git, TheSameParameterConflictsWithMarkersThatCanBeResolved) {
   EXPECT_EQ(merged(changed(base, "\"seconds\": 1", "\"seconds\": 2"),
                    changed(base, "\"seconds\": 1", "\"seconds\": 3")),
             1);
-  EXPECT_THAT(said(), HasSubstr("walk.seconds: 2 here, 3 there"));
+  EXPECT_THAT(said(), HasSubstr("g.kg.json: conflict: walk.seconds: 2 here, 3 there"));
   EXPECT_THAT(
       read("g.kg.json"),
       HasSubstr("<<<<<<< ours\n        \"seconds\": 2\n=======\n        \"seconds\": 3\n>>>>>>> theirs\n"));
@@ -172,6 +172,21 @@ TEST_F(Git, GitDiffShowsUnits) {
   commit(changed(base, "\"seconds\": 1", "\"seconds\": 2"), "longer");
   EXPECT_EQ(git("diff --no-color HEAD~1 HEAD -- g.kg.json"), 0);
   EXPECT_THAT(said(), HasSubstr("-walk.seconds = 1\n+walk.seconds = 2\n"));
+}
+
+TEST_F(Git, GitDiffShowsARangeOnOneLineAndAListByItsElements) {
+  const auto trimmed = [](const std::string& range, const std::string& rules) {
+    return graph(R"("walk": {"type": "Gait"}, "trim": {"type": "Trim", "params": {"range": )" + range +
+                 R"(}, "inputs": {"motion": "walk.motion"}},
+      "m": {"type": "Metrics", "inputs": {"motion": "trim.motion"}},
+      "check": {"type": "Check", "params": {"rules": [)" +
+                 rules + R"(]}, "inputs": {"metrics": "m.metrics"}})");
+  };
+  commit(trimmed("[0, 50]", R"("skate < 1")"), "trim");
+  commit(trimmed("[5, null]", R"("skate < 1", "jerk < 9")"), "longer");
+  EXPECT_EQ(git("diff --no-color HEAD~1 HEAD -- g.kg.json"), 0);
+  EXPECT_THAT(said(), HasSubstr("-trim.range = [0, 50]\n+trim.range = [5, null]\n"));
+  EXPECT_THAT(said(), HasSubstr(" check.rules: \"skate < 1\"\n+check.rules: \"jerk < 9\"\n"));
 }
 
 TEST_F(Git, DiffTellsNodesLinksAndParameters) {

@@ -60,6 +60,16 @@ TEST_F(GraphFiles, ValidateFindsNodesThatLackWhatTheyAreFor) {
   EXPECT_EQ(run({"validate", "off.kg.json"}).exit, 0);
 }
 
+TEST_F(GraphFiles, APresetIsAGraphOfOneNodeAndValid) {
+  write("soft.kg.json", graph(R"("Filter_ab12": {"type": "Filter", "params": {"cutoff": 3}})"));
+  Ran ran = run({"validate", "--strict", "soft.kg.json"});
+  EXPECT_EQ(ran.exit, 0);
+  EXPECT_THAT(ran.out, HasSubstr("info: open-input: Filter_ab12.motion: "));
+  EXPECT_EQ(run({"run", "soft.kg.json", "--target", "Filter_ab12"}).exit, 3);
+  write("broken.kg.json", graph(R"("Filter_ab12": {"type": "Filter", "params": {"cutoff": -3}})"));
+  EXPECT_EQ(run({"validate", "broken.kg.json"}).exit, 3);
+}
+
 TEST_F(GraphFiles, ValidateStrictCountsWarnings) {
   write("g.kg.json", graph(R"("odd": {"type": "Telepathy"})"));
   EXPECT_EQ(run({"validate", "g.kg.json"}).exit, 0);
@@ -77,6 +87,7 @@ TEST_F(GraphFiles, FmtIsIdempotentAndCheckTells) {
   Ran check = run({"fmt", "--check", "g.kg.json"});
   EXPECT_EQ(check.exit, 1);
   EXPECT_EQ(check.out, "g.kg.json\n");
+  EXPECT_EQ(check.err, "1 of 1 not in canonical form; `kinegraph fmt` without --check writes it\n");
   EXPECT_EQ(run({"fmt", "g.kg.json"}).exit, 0);
   auto once = read("g.kg.json");
   EXPECT_EQ(run({"fmt", "--check", "g.kg.json"}).exit, 0);
