@@ -9,6 +9,7 @@
 #include "graph/file/write.h"
 #include "headless/commands.h"
 #include "headless/exit_code.h"
+#include "headless/version_of_graph.h"
 
 namespace kinegraph {
 
@@ -17,17 +18,6 @@ namespace {
 std::string text_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-// Whether the document may be written back: whole, and of a schema that this program knows.
-bool writable(const Program& program, const Opened& opened) {
-  program.terminal.say(opened.problems);
-  if (has_error(opened.problems)) return false;
-  if (!opened.document.read_only) return true;
-  program.terminal.say(error("newer-schema", "the file is of a newer schema and is left as it is")
-                           .in_file(opened.shown)
-                           .hinting("use a newer version of kinegraph"));
-  return false;
 }
 
 int write_back(const Program& program, const std::string& path, const std::string& text) {
@@ -60,7 +50,7 @@ int fmt_command(const Program& program, const std::vector<std::string>& graphs, 
       opened = open_graph(graph, program.registry, false);
       before = text_of(graph);
     }
-    if (!writable(program, opened)) {
+    if (!usable_version(program, opened, true)) {
       code = graver(code, exit_code::invalid);
       continue;
     }
@@ -90,7 +80,7 @@ int upgrade_command(const Program& program, const std::vector<std::string>& grap
   int code = exit_code::done;
   for (const auto& graph : graphs) {
     Opened opened = open_graph(graph, program.registry);
-    if (!writable(program, opened)) {
+    if (!usable_version(program, opened, true)) {
       code = exit_code::graver(code, exit_code::invalid);
       continue;
     }

@@ -16,12 +16,12 @@ Opened version_of_graph(const std::string& argument, const Registry& registry) {
   return opened;
 }
 
-bool usable_version(const Program& program, const Opened& opened) {
+bool usable_version(const Program& program, const Opened& opened, bool infos) {
   for (const Diagnostic& problem : opened.problems)
-    if (problem.severity != Severity::info) program.terminal.say(problem);
+    if (infos || problem.severity != Severity::info) program.terminal.say(problem);
   if (has_error(opened.problems)) return false;
   if (!opened.document.read_only) return true;
-  program.terminal.say(error("newer-schema", "the file is of a newer schema")
+  program.terminal.say(error("newer-schema", "the file is of a newer schema and is left as it is")
                            .in_file(opened.shown)
                            .hinting("use a newer version of kinegraph"));
   return false;
