@@ -3,6 +3,7 @@
 #include <QClipboard>
 #include <QMenu>
 #include <QWidgetAction>
+#include <algorithm>
 #include <cmath>
 
 #include "graph/file/read.h"
@@ -15,8 +16,22 @@
 
 namespace kinegraph {
 
+// Where a new node hides none: below those that it would lie on.
+QPointF GraphCanvas::free_place(QPointF graph) const {
+  constexpr double least_height = 150, apart = 20;
+  for (std::size_t tries = 0; tries <= scene_.nodes().size(); ++tries) {
+    const QRectF box(graph, QSizeF(GraphScene::node_width, least_height));
+    const auto under = std::find_if(scene_.nodes().begin(), scene_.nodes().end(),
+                                    [&](const SceneNode& node) { return node.rect.intersects(box); });
+    if (under == scene_.nodes().end()) break;
+    graph.setY(under->rect.bottom() + apart);
+  }
+  return graph;
+}
+
 std::string GraphCanvas::add(const std::string& type, QPointF graph, std::optional<PortAt> port,
                              std::map<std::string, Json> params) {
+  if (!port) graph = free_place(graph);
   std::string name;
   const bool done = session_.perform([&](const Document& d, const Registry& r) {
     return add_new_node(d, r, {type, graph, port, params}, &name);

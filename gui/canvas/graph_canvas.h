@@ -102,6 +102,7 @@ class GraphCanvas : public QWidget {
   void dropEvent(QDropEvent* event) override;
 
  private:
+  QPointF free_place(QPointF graph) const;
   void moving();  // the view moves: draw coarsely until it rests
   void paint_grid(QPainter& painter);
   void paint_frames(QPainter& painter);

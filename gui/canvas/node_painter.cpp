@@ -206,21 +206,25 @@ bool has_warning(const NodeStatus* status, std::optional<Severity> problem) {
 void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, NodeStatus::State state,
                 bool bad, std::optional<Severity> problem, const QRectF& box, const QColor& ink,
                 const Theme& theme, double zoom) {
-  const double dot = std::clamp(3.5 / zoom, 5.0, box.height() / 5), left = std::max(11.0, 7 / zoom);
+  const double dot = std::clamp(3.5 / zoom, 5.0, box.height() / 5), left = std::max(11.0, 6 / zoom);
+  const bool with_dot = state != NodeStatus::State::idle || bad;
+  const QString name = QString::fromStdString(node.name);
+  const auto wide = [&](double at) { return QFontMetricsF(font_of(at, true)).horizontalAdvance(name); };
+  // The dot stands beside the name, or in the corner above a name that needs the room.
+  const double smallest = 8.5 / zoom, full = box.width() - 1.6 * left;
+  const bool in_corner = with_dot && wide(smallest) > full - 4.2 * dot;
   const bool with_still = !node.still.isNull() && zoom >= 0.3;
-  QRectF words(left, 3 / zoom, box.width() - left - 4.8 * dot, box.height() - 3 / zoom);
+  QRectF words(left, 3 / zoom, with_dot && !in_corner ? full - 4.2 * dot : full, box.height() - 3 / zoom);
   if (with_still) {
     const double height = std::min(1.15 * node.still.height(), box.height() * 0.5);
     const QRectF still(8, box.height() - 7 - height, box.width() - 16, height);
     words.setBottom(still.top());
     draw_still(p, still, status ? status->still.get() : nullptr, theme);
   }
-  const QString name = QString::fromStdString(node.name);
   // A long name is written smaller before letters are left out.
   double pixels = std::clamp(11 / zoom, 14.0, 44.0);
-  const auto wide = [&](double at) { return QFontMetricsF(font_of(at, true)).horizontalAdvance(name); };
   if (const double needs = wide(pixels); needs > words.width())
-    pixels = std::max(std::min(pixels, 8.5 / zoom), pixels * words.width() / needs * 0.99);
+    pixels = std::max(std::min(pixels, smallest), pixels * words.width() / needs * 0.99);
   const double type_pixels = 9 / zoom, line = pixels * 1.3, type_line = type_pixels * 1.35;
   const bool with_type = zoom >= 0.34 && words.height() >= line + type_line;
   const double top = words.center().y() - (line + (with_type ? type_line : 0)) / 2;
@@ -234,10 +238,11 @@ void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, No
     draw_text(p, QRectF(words.left(), top + line, box.width() - 2 * left, type_line), Qt::AlignLeft,
               QString::fromStdString(node.type));
   }
-  if (state == NodeStatus::State::idle && !bad) return;
+  if (!with_dot) return;
   p.setPen(Qt::NoPen);
   p.setBrush(bad ? theme.error : has_warning(status, problem) ? theme.warning : state_color(theme, state));
-  p.drawEllipse(QPointF(box.right() - 3.2 * dot, title.center().y()), dot, dot);
+  p.drawEllipse(QPointF(box.right() - 3.2 * dot, in_corner ? 3 / zoom + 1.6 * dot : title.center().y()), dot,
+                dot);
 }
 
 }  // namespace

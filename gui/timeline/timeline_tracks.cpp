@@ -3,6 +3,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPainterPath>
+#include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,8 @@ namespace kinegraph {
 namespace {
 
 constexpr double ruler = 24, gutter = 96, right_edge = 14, gap = 6;
-constexpr double handle = 6;  // pixels around an end of the range that take hold of it
+constexpr double lane_pad = 3;  // around the contact bars of a row
+constexpr double handle = 6;    // pixels around an end of the range that take hold of it
 
 double nice_step(double least) {
   const double power = std::pow(10.0, std::floor(std::log10(std::max(1.0, least))));
@@ -74,7 +76,7 @@ QRectF TimelineTracks::row_rect(std::size_t index) const {
   const double between = warped ? std::clamp((height() - ruler) * 0.34, 26.0, 90.0) : gap;
   const double count = static_cast<double>(std::max<std::size_t>(1, rows_.size()));
   const double free = height() - ruler - 2 * gap - (warped ? between + (count - 2) * gap : (count - 1) * gap);
-  const double high = std::clamp(free / count, 8.0, 40.0);
+  const double high = std::clamp(free / count, 8.0, 56.0);
   double top = ruler + gap;
   for (std::size_t i = 0; i < index; ++i) top += high + (warped && i == 0 ? between : gap);
   return QRectF(0, top, width(), high);
@@ -165,7 +167,7 @@ void TimelineTracks::paint_row(QPainter& painter, const Row& row, const QRectF& 
   painter.setPen(QPen(theme_->line, 1));
   painter.drawRoundedRect(body, 3, 3);
   const std::size_t lanes = motion.contacts.points.size();
-  const double pad = 3, lane = lanes > 0 ? (where.height() - 2 * pad) / static_cast<double>(lanes) : 0;
+  const double lane = lanes > 0 ? (where.height() - 2 * lane_pad) / static_cast<double>(lanes) : 0;
   painter.setPen(Qt::NoPen);
   for (std::size_t i = 0; i < lanes; ++i) {
     const FootPoint& point = motion.contacts.points[i];
@@ -175,7 +177,7 @@ void TimelineTracks::paint_row(QPainter& painter, const Row& row, const QRectF& 
     for (const Run& run : runs_of(point.planted)) {
       const double from = x_of(static_cast<double>(run.start) * scale),
                    to = x_of(static_cast<double>(run.end) * scale);
-      painter.drawRect(QRectF(from, where.top() + pad + static_cast<double>(i) * lane,
+      painter.drawRect(QRectF(from, where.top() + lane_pad + static_cast<double>(i) * lane,
                               std::max(1.0, to - from), std::max(1.0, lane - 1)));
     }
   }
@@ -210,6 +212,41 @@ void TimelineTracks::paint_warp(QPainter& painter, const QRectF& upper, const QR
                      QPointF(x_of(reference * scale), lower.top()));
   }
   painter.setClipping(false);
+}
+
+QString TimelineTracks::told_at(QPointF at) const {
+  const int frame = static_cast<int>(std::floor(frame_at(at.x())));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const QRectF where = row_rect(i);
+    const Row& row = rows_[i];
+    if (!row.motion || !where.contains(at)) continue;
+    const double scale = playback_.fps() / row.motion->fps;
+    QString words = tr("%1, frame %2").arg(row.name).arg(std::max(0, frame));
+    const auto& points = row.motion->contacts.points;
+    if (points.empty() || at.x() < gutter) return words;
+    const double lane = (where.height() - 2 * lane_pad) / static_cast<double>(points.size());
+    const int over = static_cast<int>(std::floor((at.y() - where.top() - lane_pad) / lane));
+    const FootPoint& point =
+        points[static_cast<std::size_t>(std::clamp(over, 0, static_cast<int>(points.size()) - 1))];
+    const QString foot = tr(point.left ? "left %1" : "right %1").arg(QString::fromStdString(point.part));
+    const auto at_rate = [&](std::size_t t) { return std::lround(static_cast<double>(t) * scale); };
+    for (const Run& run : runs_of(point.planted))
+      if (at_rate(run.start) <= frame && frame < at_rate(run.end))
+        return words + "\n" +
+               tr("%1 planted in frames %2 to %3")
+                   .arg(foot)
+                   .arg(at_rate(run.start))
+                   .arg(at_rate(run.end) - 1);
+    return words + "\n" + tr("%1 in the air").arg(foot);
+  }
+  return {};
+}
+
+bool TimelineTracks::event(QEvent* event) {
+  if (event->type() != QEvent::ToolTip) return QWidget::event(event);
+  auto* help = static_cast<QHelpEvent*>(event);
+  QToolTip::showText(help->globalPos(), told_at(help->pos()), this);
+  return true;
 }
 
 void TimelineTracks::mousePressEvent(QMouseEvent* event) {

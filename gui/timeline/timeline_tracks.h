@@ -42,9 +42,12 @@ class TimelineTracks : public QWidget {
   void mouseReleaseEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
+  bool event(QEvent* event) override;
 
  private:
   enum class Drag { none, scrub, in, out, pan };
+  // What a tool tip says there: row, frame, and the foot of the bar.
+  QString told_at(QPointF at) const;
   void paint_ruler(QPainter& painter);
   void paint_row(QPainter& painter, const Row& row, const QRectF& where);
   void paint_warp(QPainter& painter, const QRectF& upper, const QRectF& lower);

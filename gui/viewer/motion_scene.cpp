@@ -148,16 +148,18 @@ void add_motion(Scene& scene, const ShownMotion& motion, double seconds, const S
   scene.floor = scene.figures.empty() ? static_cast<float>(motion.floor)
                                       : std::min(scene.floor, static_cast<float>(motion.floor));
   if (scene.figures.empty()) {
-    // Lines a metre apart, or a power of ten nearer for small things.
-    scene.grid =
-        motion.size > 0.5 ? 1.0f : static_cast<float>(std::pow(10.0, std::ceil(std::log10(motion.size)) - 1));
+    // Lines a metre apart, or powers of ten nearer or farther for small and for large things.
+    const double power = std::log10(motion.size) - (motion.size > 1 ? 0.7 : 0);
+    scene.grid = motion.size > 0.5 && motion.size < 5
+                     ? 1.0f
+                     : static_cast<float>(std::pow(10.0, std::ceil(power) - (motion.size > 1 ? 0 : 1)));
   }
   SceneFigure figure = figure_of(motion, frame, looks, theme);
   if (character) {
     figure.character = std::move(character);
     figure.motion = motion.value;
     figure.frame = static_cast<std::size_t>(frame);
-    figure.mesh_color = looks.second ? theme.second.rgb() : mixed(theme.bone, theme.accent, 0.2);
+    figure.mesh_color = looks.second ? theme.second.rgb() : theme.skin.rgb();
     figure.capsules.clear();
   }
   scene.figures.push_back(std::move(figure));

@@ -27,18 +27,6 @@ void find_normals(PosedMesh& mesh) {
   }
 }
 
-std::vector<double> morphs_at(const Character& character, int part, std::size_t targets, double seconds) {
-  std::vector<double> weights(targets, 0.0);
-  for (const MorphTrack& track : character.morph_tracks) {
-    if (track.part != part || track.weights.empty() || static_cast<std::size_t>(track.target) >= targets)
-      continue;
-    const std::size_t frame = static_cast<std::size_t>(std::max(0.0, seconds * character.morph_fps));
-    weights[static_cast<std::size_t>(track.target)] =
-        track.weights[std::min(frame, track.weights.size() - 1)];
-  }
-  return weights;
-}
-
 }  // namespace
 
 std::shared_ptr<const PosedMesh> posed_mesh(const Character& character, const Motion* motion,
@@ -47,13 +35,12 @@ std::shared_ptr<const PosedMesh> posed_mesh(const Character& character, const Mo
   try {
     const Pose pose = motion ? pose_for(character, *motion, frame) : rest_pose_of(*character.skeleton);
     const double seconds = motion ? static_cast<double>(frame) / motion->fps() : 0;
+    const std::vector<std::vector<double>> morphs =
+        morph_weights_at(character, static_cast<std::size_t>(seconds * character.morph_fps));
     for (std::size_t part = 0; part < character.parts.size(); ++part) {
       const MeshPart& one = character.parts[part];
       const auto first = static_cast<std::uint32_t>(mesh->positions.size() / 3);
-      const std::vector<double> morphs =
-          one.morphs.empty() ? std::vector<double>{}
-                             : morphs_at(character, static_cast<int>(part), one.morphs.size(), seconds);
-      for (const Vec3& v : posed_vertices(character, one, pose, morphs))
+      for (const Vec3& v : posed_vertices(character, one, pose, morphs[part]))
         for (int axis = 0; axis < 3; ++axis) mesh->positions.push_back(static_cast<float>(v[axis]));
       for (std::uint32_t vertex : one.triangles) mesh->triangles.push_back(first + vertex);
     }

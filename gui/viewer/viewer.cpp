@@ -42,9 +42,20 @@ Viewer::Viewer(Session& session, Evaluation& evaluation, Playback& playback, QWi
   // Of another graph nothing stays on the stage, even where its nodes have the same names.
   connect(&session_, &Session::page_changed, this, [this] {
     shown_.clear();
-    pins_.fill({});
+    pins_of_page_[page_] = pins_;
+    page_ = session_.path();
+    pins_ = pins_of_page_[page_];
     looked_at_.clear();
     framed_ = false;
+  });
+  connect(&session_, &Session::file_changed, this, [this] {
+    if (session_.path() == page_) return;
+    pins_of_page_.erase(page_);  // saved under another name
+    page_ = session_.path();
+  });
+  connect(&skins_, &SkinBoxes::made, this, [this] {
+    const OrbitCamera& now = stage_->camera();
+    if (now.target == framed_camera_.target && now.distance == framed_camera_.distance) frame_all();
   });
   connect(&session_, &Session::selection_changed, this, &Viewer::find_wanted);
   connect(&session_, &Session::meaning_changed, this, &Viewer::find_wanted);
@@ -102,6 +113,7 @@ void Viewer::build() {
   words_->setWordWrap(true);
   words_->setAttribute(Qt::WA_TransparentForMouseEvents);
   auto* over = new QVBoxLayout(stage_);
+  over->setContentsMargins(28, 12, 28, 12);
   over->addWidget(words_);
 
   connect(stage_, &Stage::wipe_moved, this, &Viewer::update_scene);
@@ -225,16 +237,17 @@ void Viewer::frame_all() {
   for (const Shown& one : shown_) {
     if (!one.motion) continue;
     const int frame = one.motion->frame_at(playback_.time());
-    // A skin is thicker than the joints it hangs on, most of all around the head.
-    const float skin = one.character ? 0.14f * static_cast<float>(one.motion->size) : 0;
     // Points may all be in one place at one time.
     SceneBox its = looks_.follow && !one.motion->markers ? box_at(*one.motion, frame) : box_of(*one.motion);
     if (looks_.follow) {
       its.low -= ground_under(*one.motion, frame);
       its.high -= ground_under(*one.motion, frame);
     }
-    its.high += QVector3D(0.3f * skin, skin, 0.3f * skin);
-    its.low -= QVector3D(0.3f * skin, 0, 0.3f * skin);
+    if (one.character) {
+      const SceneBox skin = skins_.around(one.character, one.motion, frame);
+      its.low += skin.low;
+      its.high += skin.high;
+    }
     if (first) box = its;
     first = false;
     for (int axis = 0; axis < 3; ++axis) {
@@ -244,6 +257,7 @@ void Viewer::frame_all() {
   }
   if (first) return;
   stage_->camera().frame(box.low, box.high);
+  framed_camera_ = stage_->camera();
   stage_->camera_changed();
   update_scene();
 }
@@ -475,6 +489,17 @@ void Viewer::update_words() {
     } else {
       words = tr("Evaluating %1 …").arg(name);
     }
+  }
+  if (any && words.isEmpty()) {
+    const auto unseen = [this](const Shown& one) {
+      if (!one.motion || !one.motion->markers) return !one.motion;
+      const int frame = one.motion->frame_at(playback_.time());
+      for (int point = 0; point < one.motion->points; ++point)
+        if (!std::isnan(one.motion->at(frame, point).x)) return false;
+      return true;
+    };
+    if (std::all_of(shown_.begin(), shown_.end(), unseen))
+      words = tr("No point was captured in this frame. Scrub on to where they are seen.");
   }
   words_->setText(words);
   words_->setVisible(!words.isEmpty());

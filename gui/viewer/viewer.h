@@ -3,6 +3,7 @@
 #pragma once
 #include <QWidget>
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,7 +12,9 @@
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
 #include "gui/timeline/playback.h"
+#include "gui/viewer/orbit_camera.h"
 #include "gui/viewer/shown_motions.h"
+#include "gui/viewer/skin_boxes.h"
 #include "gui/window/theme.h"
 
 class QAction;
@@ -99,8 +102,13 @@ class Viewer : public QWidget {
   const Theme* theme_;
   Arrangement arrangement_ = Arrangement::side_by_side;
   Looks looks_;
-  std::array<std::string, places> pins_;
-  std::string looked_at_;  // the node shown without pins
+  using Pins = std::array<std::string, places>;
+  Pins pins_;
+  QString page_;  // the path of the shown page: each has its pins
+  std::map<QString, Pins> pins_of_page_;
+  SkinBoxes skins_;
+  OrbitCamera framed_camera_;  // as frame_all left it
+  std::string looked_at_;      // the node shown without pins
   std::vector<Target> wanted_;
   std::vector<Shown> shown_;
   bool framed_ = false;  // the camera has found what is shown once

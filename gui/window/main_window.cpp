@@ -182,7 +182,11 @@ void MainWindow::evaluate() {
           for (const auto& [port, inputs] : node.inputs)
             for (const Link& link : inputs.links)
               if (link.node == looked_at) ask({link.node, link.port});
-        if (asked.empty()) ask({looked_at, type->outputs.front().name});
+        for (const OutputPort& port : type->outputs) {
+          if (!asked.empty()) break;
+          for (const Target& own : outputs_of(session_.document(), registry_, looked_at, port.type))
+            if (own.port == port.name) ask(own);
+        }
       } else {
         ask({looked_at, ""});
       }

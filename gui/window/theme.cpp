@@ -50,6 +50,7 @@ Theme make_dark() {
   t.sky = 0xff20242b;
   t.bone = 0xffd9dde4;
   t.joint = 0xffaab2be;
+  t.skin = 0xffbdd1e9;
   t.left = 0xff6fb7e9;
   t.right = 0xffeb8f6b;
   t.second = 0xff9fd48a;
@@ -87,6 +88,7 @@ Theme make_light() {
   t.sky = 0xfff1f3f6;
   t.bone = 0xff4a525e;
   t.joint = 0xff6a7480;
+  t.skin = 0xffa9bbcf;
   t.left = 0xff1b78ad;
   t.right = 0xffb9562c;
   t.second = 0xff4d8a35;

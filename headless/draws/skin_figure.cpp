@@ -32,12 +32,7 @@ SkinFigure::SkinFigure(const Character& character) : character_(character) {
 
 SolidMesh SkinFigure::posed(const Pose& pose, std::optional<std::size_t> morph_frame) const {
   SolidMesh mesh;
-  std::vector<std::vector<double>> weights;
-  for (const MeshPart& part : character_.parts) weights.emplace_back(part.morphs.size());
-  for (const MorphTrack& track : character_.morph_tracks)
-    if (morph_frame && !track.weights.empty())
-      weights[static_cast<std::size_t>(track.part)][static_cast<std::size_t>(track.target)] =
-          track.weights[std::min(*morph_frame, track.weights.size() - 1)];
+  const std::vector<std::vector<double>> weights = morph_weights_at(character_, morph_frame);
   for (std::size_t p = 0; p < character_.parts.size(); ++p) {
     const MeshPart& part = character_.parts[p];
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());

@@ -1,5 +1,6 @@
 #include "nodes/motion/character.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "graph/diagnostic.h"
@@ -111,6 +112,18 @@ std::vector<Vec3> posed_vertices(const Character& character, const MeshPart& par
     out[v] = point(skinning_map(part, v, maps), p);
   }
   return out;
+}
+
+std::vector<std::vector<double>> morph_weights_at(const Character& character,
+                                                  std::optional<std::size_t> frame) {
+  std::vector<std::vector<double>> weights;
+  for (const MeshPart& part : character.parts) weights.emplace_back(part.morphs.size());
+  for (const MorphTrack& track : character.morph_tracks)
+    if (frame && !track.weights.empty() && static_cast<std::size_t>(track.part) < weights.size() &&
+        static_cast<std::size_t>(track.target) < weights[static_cast<std::size_t>(track.part)].size())
+      weights[static_cast<std::size_t>(track.part)][static_cast<std::size_t>(track.target)] =
+          track.weights[std::min(*frame, track.weights.size() - 1)];
+  return weights;
 }
 
 Pose rest_pose_of(const Skeleton& skeleton) {

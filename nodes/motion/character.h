@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,9 +16,9 @@ namespace kinegraph {
 
 // The joints that a mesh may be bound to. A vertex v of weight w_k on joint k stands at
 //   Σ_k w_k J_k B_k v / Σ_k w_k,   J_k: the joint's world position and orientation, B_k: inverse_bind[k].
-// The sum is 1 in a sound file; where it isn't, dividing by it is what Blender and three.js do, and what keeps
-// the mesh whole. A vertex of no weight at all rides on its first joint.
-// J has no scale: scales of the file's nodes and its unit are folded into B.
+// The sum is 1 in a sound file; where it isn't, dividing by it is what Blender and three.js do, and what
+// keeps the mesh whole. A vertex of no weight at all rides on its first joint. J has no scale: scales of the
+// file's nodes and its unit are folded into B.
 struct Skin {
   std::string name;
   std::vector<int> joints;           // of Character::skeleton
@@ -100,6 +101,10 @@ Affine skinning_map(const MeshPart& part, std::size_t vertex, const std::vector<
 // skeleton). `morph_weights`: one a target, or empty.
 std::vector<Vec3> posed_vertices(const Character& character, const MeshPart& part, const Pose& pose,
                                  const std::vector<double>& morph_weights = {});
+// Weights of the morph targets of each part at a frame of the character's own tracks, which stay at their
+// last value; without a frame all are 0.
+std::vector<std::vector<double>> morph_weights_at(const Character& character,
+                                                  std::optional<std::size_t> frame);
 // The skeleton's rest pose as a Pose.
 Pose rest_pose_of(const Skeleton& skeleton);
 // The pose of `motion` at a frame for a character's skeleton, joints matched by name; joints that the motion

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <QClipboard>
+#include <QDir>
+#include <QFileInfo>
 
 #include "tests/gui/editor.h"
 
@@ -187,6 +189,36 @@ TEST(EditorCanvas, EverythingUndoneIsTheFileAsItWas) {
   EXPECT_NE(editor.session().text(), before);
   while (editor.session().can_undo()) editor.key(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(editor.session().text(), before);
+}
+
+// Stills, values and ports make nodes of different heights; none of an example may hide another.
+TEST(EditorExamples, NoNodeLiesOnAnother) {
+  const Registry registry = all_nodes();
+  const QDir graphs(QString(KINEGRAPH_SOURCE_DIR) + "/graphs");
+  QStringList files;
+  for (const QString& folder : {graphs.path(), graphs.filePath("pipelines")})
+    for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"})) files << file.filePath();
+  ASSERT_GT(files.size(), 15);
+  for (const QString& file : files) {
+    Session session(registry);
+    session.open_page(file);
+    GraphScene scene;
+    scene.rebuild(session.document(), registry, {});
+    for (const SceneNode& a : scene.nodes())
+      for (const SceneNode& b : scene.nodes())
+        if (a.name < b.name) {
+          EXPECT_FALSE(a.rect.intersects(b.rect)) << file.toStdString() << ": " << a.name << ", " << b.name;
+        }
+  }
+}
+
+TEST(EditorCanvas, NodesAddedAtOnePlaceStandBelowEachOther) {
+  Editor editor;
+  for (int i = 0; i < 3; ++i) editor.canvas().add("Load", {0, 0});
+  const auto& nodes = editor.canvas().scene().nodes();
+  ASSERT_EQ(nodes.size(), 3u);
+  for (const SceneNode& a : nodes)
+    for (const SceneNode& b : nodes) EXPECT_TRUE(a.name == b.name || !a.rect.intersects(b.rect));
 }
 
 }  // namespace

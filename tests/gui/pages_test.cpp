@@ -8,7 +8,9 @@
 #include <QTimer>
 
 #include "graph/nested.h"
+#include "gui/viewer/viewer.h"
 #include "tests/gui/editor.h"
+#include "tests/mocap.h"
 
 namespace kinegraph::editor_test {
 namespace {
@@ -168,6 +170,36 @@ TEST(EditorEvaluation, AMotionsNodeHasAStill) {
   EXPECT_EQ(still.figures, 5);
   EXPECT_NEAR(still.height, 1, 0.15);
   EXPECT_FALSE(editor.canvas().scene().node(gait)->still.isNull());
+}
+
+TEST(EditorPages, EachPageKeepsThePinsOfItsViewer) {
+  Editor editor;
+  const QString graphs = QString(KINEGRAPH_SOURCE_DIR) + "/graphs/";
+  editor.window.open(graphs + "style_transfer.kg.json");
+  auto* viewer = editor.window.findChild<Viewer*>();
+  viewer->pin(1, "walk");
+  viewer->pin(2, "feet");
+  editor.window.open(graphs + "sneaky_walk.kg.json");
+  EXPECT_EQ(viewer->pinned(1), "");
+  viewer->pin(1, "sneak");
+  editor.session().show_page(0);
+  EXPECT_EQ(viewer->pinned(1), "walk");
+  EXPECT_EQ(viewer->pinned(2), "feet");
+  editor.session().show_page(1);
+  EXPECT_EQ(viewer->pinned(1), "sneak");
+  EXPECT_EQ(viewer->pinned(2), "");
+}
+
+// Every real motion file, of whatever kind, shows what it holds as soon as its Load is chosen.
+TEST(EditorViewer, ALoadOfMarkersShowsThemWithoutALink) {
+  KINEGRAPH_NEEDS_MOCAP();
+  Editor editor;
+  editor.canvas().add("Load", {0, 0}, {}, {{"file", Json(mocap("points/walking2.c3d"))}});
+  auto* viewer = editor.window.findChild<Viewer*>();
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return viewer->shown().size() == 1 && viewer->shown()[0].motion; }, 20000));
+  EXPECT_TRUE(viewer->shown()[0].motion->markers);
+  EXPECT_EQ(editor.window.evaluation().status(editor.session().current())->state, NodeStatus::State::done);
 }
 
 }  // namespace

@@ -4,11 +4,13 @@
 #include <QMessageBox>
 #include <QStandardPaths>
 #include <QStyleFactory>
+#include <QToolButton>
 #include <cstdio>
 
 #include "graph/edit.h"
 #include "graph/file/read.h"
 #include "gui/canvas/canvas_edits.h"
+#include "gui/components/components_grid.h"
 #include "gui/window/changes_dialog.h"
 #include "tests/screenshots/shots.h"
 
@@ -78,6 +80,9 @@ void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
       if (running && running->state == NodeStatus::State::running) break;
     }
     shot.take_widget("node_states" + end, &shot.canvas());
+    shot.window.resize(1280, 800);
+    shot.wait(0);
+    shot.take("running" + end);
     shot.window.evaluation().cancel();
   }
 }
@@ -91,6 +96,19 @@ void gestures(const Theme& theme, const QDir& into, const QString& end) {
     shot.wait();
     shot.drag(shot.port("transfer", "motion", false), shot.port("style", "motion", true) + QPoint(2, 0));
     shot.take_widget("refused_wire" + end, &shot.canvas());
+  }
+  {
+    Shot shot(theme, into);
+    shot.open("sneaky_walk");
+    const QPoint from = shot.port("sneak", "motion", false);
+    shot.drag(from, from + QPoint(20, 60));
+    QTest::mouseRelease(&shot.canvas(), Qt::LeftButton, Qt::NoModifier, from + QPoint(20, 60));
+    shot.wait(150);
+    shot.take_widget("search_fitting" + end, &shot.canvas());
+    shot.press(Qt::Key_Escape);
+    shot.window.action("find")->trigger();
+    shot.type("tr");
+    shot.take_widget("find_node" + end, &shot.canvas());
   }
   {
     Shot shot(theme, into);
@@ -162,6 +180,16 @@ void docks(const Theme& theme, const QDir& into, const QString& end) {
     shot.take_dock("parameters" + end, "Parameters");
     shot.select("style");
     shot.take_dock("curves_statistics" + end, "Curves");
+    shot.select("warp");
+    shot.take_popup("parameter_menu" + end, [&] {
+      shot.window.findChild<QWidget*>("param_features")
+          ->parentWidget()
+          ->findChild<QToolButton*>("row_menu")
+          ->click();
+    });
+    shot.take_popup("joint_tree" + end, [&] {
+      shot.window.findChild<QWidget*>("param_features")->findChild<QToolButton*>()->click();
+    });
     shot.dock("Files");
     shot.take_dock("files" + end, "Files");
     shot.select("check");
@@ -175,6 +203,10 @@ void docks(const Theme& theme, const QDir& into, const QString& end) {
     shot.wait(1500);
     shot.take("components" + end);
     shot.take_dock("parameters_edits" + end, "Parameters");
+    shot.dock("Components");
+    shot.window.findChild<ComponentsGrid*>()->choose(1, false);
+    shot.wait();
+    shot.take_dock("components_chosen" + end, "Components");
   }
   {
     Shot shot(theme, into);
@@ -182,6 +214,7 @@ void docks(const Theme& theme, const QDir& into, const QString& end) {
     shot.window.playback().set_time(0.6);
     shot.wait();
     shot.take_dock("viewer_points" + end, "Viewer");
+    shot.take_dock("curves_empty" + end, "Curves");
     shot.take_dock("components_empty" + end, "Components");
     shot.take_dock("problems_empty" + end, "Problems");
   }
@@ -191,6 +224,23 @@ void docks(const Theme& theme, const QDir& into, const QString& end) {
     shot.window.playback().set_time(0.4);
     shot.wait();
     shot.take_dock("viewer_stretch" + end, "Viewer");
+    shot.select("rubber");
+    shot.take_dock("parameters_groups" + end, "Parameters");
+  }
+  {
+    Shot shot(theme, into);
+    shot.text(R"("walk": {"type": "Load", "params": {"file": "characters/mannequin.glb"}})");
+    shot.window.playback().set_time(0.4);
+    shot.wait();
+    shot.viewer().frame_all();
+    shot.wait();
+    shot.take_dock("viewer_character" + end, "Viewer");
+  }
+  {
+    Shot shot(theme, into);
+    shot.take_dock("viewer_empty" + end, "Viewer");
+    shot.take_dock("timeline_empty" + end, "Timeline");
+    shot.take_dock("parameters_empty" + end, "Parameters");
   }
 }
 
@@ -289,27 +339,21 @@ int main(int argc, char** argv) {
   const QString what = argv[2];
   QDir().mkpath(into.path());
   if (what == "large") {
-    // With QT_SCALE_FACTOR=2 in the environment: the same window with twice the pixels.
-    shots::Shot shot(dark_theme(), into, {1280, 800});
-    shot.open("style_transfer");
-    shot.select("transfer");
-    shot.canvas().frame_all();
-    shot.wait();
-    shot.take("window_large");
+    // With QT_SCALE_FACTOR=2 in the environment: the same windows with twice the pixels.
+    for (const Theme* theme : {&dark_theme(), &light_theme()}) {
+      const QString end = theme->dark ? "_large" : "_light_large";
+      shots::Shot shot(*theme, into, {1280, 800});
+      shot.open("component_edit");
+      shot.select("edit");
+      shot.dock("Components");
+      shot.wait(1500);
+      shot.take("window" + end);
+    }
     return 0;
   }
   const Theme& theme = what == "light" ? light_theme() : dark_theme();
   const QString end = what == "light" ? "_light" : "";
   shots::graph_pictures(theme, into, end);
-  if (what == "light") {
-    shots::Shot shot(theme, into);
-    shot.open("component_edit");
-    shot.select("edit");
-    shot.dock("Components");
-    shot.wait(1500);
-    shot.take("components_light");
-    return 0;
-  }
   shots::gestures(theme, into, end);
   shots::docks(theme, into, end);
   shots::troubles(theme, into, end);

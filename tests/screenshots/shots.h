@@ -22,7 +22,7 @@ struct Shot {
     window.set_theme(theme);
     window.resize(size);
     window.show();
-    QTest::qWaitForWindowExposed(&window);
+    if (!QTest::qWaitForWindowExposed(&window)) qFatal("the window is not shown");
     QApplication::setActiveWindow(&window);
     window.resize(size);
     window.canvas().setFocus();
@@ -43,7 +43,8 @@ struct Shot {
   }
   // A graph written down here, in a folder of its own beside the sample clips.
   QString text(const QByteArray& nodes, const QByteArray& rest = {}) {
-    QFile::link(QString(KINEGRAPH_SOURCE_DIR) + "/graphs/clips", folder.filePath("clips"));
+    for (const char* beside : {"clips", "characters"})
+      QFile::link(QString(KINEGRAPH_SOURCE_DIR) + "/graphs/" + beside, folder.filePath(beside));
     const QString path = folder.filePath("example.kg.json");
     QFile file(path);
     if (file.open(QIODevice::WriteOnly))
