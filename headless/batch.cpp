@@ -184,7 +184,8 @@ class Batch {
     outcome.log = session.run(targets, quiet, stop_);
     for (const auto& [name, node] : outcome.log.nodes)
       for (Diagnostic diagnostic : node.diagnostics) {
-        if (diagnostic.severity == Severity::info) continue;
+        // Over hundreds of clips the cause is enough; the report has what it blocked.
+        if (diagnostic.severity == Severity::info || diagnostic.code == "blocked") continue;
         if (diagnostic.node.empty()) diagnostic.node = name;
         say(*run.item, std::move(diagnostic));
       }

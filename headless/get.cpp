@@ -51,6 +51,14 @@ int get_command(const Program& program, const RunArguments& arguments, const std
         node.shown_paths["file"] = file;
         if (type->resolve) type->resolve(node.params);
         node.inputs[input] = {*source};
+        // What the command line asks for can't be had: told before anything is computed.
+        if (type->misfits)
+          for (Diagnostic problem : type->misfits(Params(node.params), {input})) {
+            problem.message = fmt::format("-o {}: {}", file, problem.message);
+            problem.param.clear();
+            problem.port.clear();
+            throw UsageError(std::move(problem));
+          }
         plan.by_name[node.name] = static_cast<int>(plan.nodes.size());
         plan.effects.push_back(node.name);
         session.options().outside_allowed.push_back(absolute_path(file));

@@ -294,12 +294,20 @@ int chosen(const Program& program, int argc, char** argv) {
   }
 
   // CLI11 would only say that a command is missing.
-  if (argc > 1 && argv[1][0] != '-') {
+  const CLI::App* within = &app;
+  for (int i = 1; i < argc && argv[i][0] != '-' && !within->get_subcommands({}).empty(); ++i) {
     std::vector<std::string> names;
-    for (const auto* command : app.get_subcommands({})) names.push_back(command->get_name());
-    if (std::find(names.begin(), names.end(), argv[1]) == names.end())
-      throw UsageError(Diagnostic(error("unknown-command", fmt::format("there is no command \"{}\"", argv[1]))
-                                      .hinting(suggestion(argv[1], names))));
+    const CLI::App* found = nullptr;
+    for (const auto* command : within->get_subcommands({})) {
+      names.push_back(command->get_name());
+      if (command->get_name() == argv[i]) found = command;
+    }
+    if (!found)
+      throw UsageError(Diagnostic(
+          error("unknown-command", fmt::format("there is no command \"{}{}\"",
+                                               within == &app ? "" : within->get_name() + " ", argv[i]))
+              .hinting(suggestion(argv[i], names))));
+    within = found;
   }
   try {
     app.parse(argc, argv);

@@ -69,6 +69,14 @@ TEST_F(BatchTest, AFailureDoesNotStopTheRest) {
   EXPECT_THAT(read("junit.xml"), HasSubstr("<testsuite name=\"b: g.kg.json\""));
 }
 
+TEST_F(BatchTest, OfAFailedItemTheCauseIsToldAndNotAllThatItBlocked) {
+  write("clips/b.bvh", "HIERARCHY nonsense");
+  const Ran ran = batch({"--report", "report.json"});
+  EXPECT_THAT(ran.err, HasSubstr("b: clips/b.bvh:"));
+  EXPECT_THAT(ran.err, Not(HasSubstr("blocked")));
+  EXPECT_EQ(read_json("report.json")["items"]["b"]["report"]["nodes"]["smooth"]["state"], "blocked");
+}
+
 TEST_F(BatchTest, ResumeSkipsWhatStillAgrees) {
   ASSERT_EQ(batch({}).exit, 0);
   EXPECT_THAT(batch({"--resume"}).out, HasSubstr("3 skipped"));

@@ -79,6 +79,9 @@ TEST_F(Run, UnknownNamesOnTheCommandLineAreWrongUsageAndNameTheNearest) {
 }
 
 TEST_F(Run, UnknownCommandsNameTheNearest) {
+  Ran inner = run({"cache", "stats"});
+  EXPECT_EQ(inner.exit, 2);
+  EXPECT_THAT(inner.err, HasSubstr("there is no command \"cache stats\" (did you mean \"stat\"?)"));
   Ran ran = run({"rnu"});
   EXPECT_EQ(ran.exit, 2);
   EXPECT_THAT(ran.err, HasSubstr("\"run\""));

@@ -33,7 +33,9 @@ TEST_F(Values, GetWritesAnOutputInAnyOfExportsFormats) {
   EXPECT_THAT(read("w.bvh"), StartsWith("HIERARCHY"));
   ASSERT_EQ(run({"get", "g.kg.json", "style.stats", "-o", "s.json"}).exit, 0);
   EXPECT_TRUE(nlohmann::json::accept(read("s.json")));
-  EXPECT_EQ(run({"get", "g.kg.json", "walk.motion", "-o", "w.odd"}).exit, 1);
+  const Ran odd = run({"get", "g.kg.json", "walk.motion", "-o", "w.odd"});
+  EXPECT_EQ(odd.exit, 2);
+  EXPECT_THAT(odd.err, testing::HasSubstr("error: unknown-format: -o w.odd: "));
   EXPECT_EQ(run({"get", "g.kg.json", "walk", "-o", "w.bvh"}).exit, 2);
   EXPECT_EQ(run({"get", "g.kg.json", "walk.moton", "-o", "w.bvh"}).exit, 2);
 }
