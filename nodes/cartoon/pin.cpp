@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "nodes/cartoon/chain_bend.h"
+#include "nodes/cartoon/contact_joints.h"
 #include "nodes/cartoon/groups.h"
 #include "nodes/cartoon/link_turns.h"
 #include "nodes/cartoon/planted_limbs.h"
@@ -29,28 +31,34 @@ struct Goal {
 struct Hold {
   std::size_t start, end;
   std::vector<Vec3> target;  // one a frame of the whole clip, or a single one
-  std::string param;
+  std::string param;         // the pin; empty: of the contacts
   Vec3 at(std::size_t frame) const { return target.size() == 1 ? target[0] : target[frame]; }
 };
 
 Goal goal_of(std::vector<Hold> holds, const Motion& motion, const std::string& joint, double fade) {
   const std::size_t frames = motion.frames();
   std::sort(holds.begin(), holds.end(), [](const Hold& a, const Hold& b) { return a.start < b.start; });
+  // Heel and ball of a foot without toes are on one joint: where both are planted it stands between.
+  const auto overlaps = [&](std::size_t i) { return holds[i].start < holds[i - 1].end; };
   for (std::size_t i = 1; i < holds.size(); ++i)
-    if (holds[i].start < holds[i - 1].end)
+    if (overlaps(i) && !(holds[i].param.empty() && holds[i - 1].param.empty()))
       throw Failure(
           error("pins-overlap", fmt::format("{} is pinned twice at frame {}", joint, holds[i].start))
-              .at_param(holds[i].param)
+              .at_param(holds[i].param.empty() ? holds[i - 1].param : holds[i].param)
               .at_joint(joint)
               .at_frame(static_cast<std::int64_t>(holds[i].start))
-              .hinting("end one pin before the other starts"));
+              .hinting(holds[i].param.empty() || holds[i - 1].param.empty()
+                           ? "the linked contacts plant it there: pin it before or after"
+                           : "end one pin before the other starts"));
   Goal goal{std::vector<double>(frames), std::vector<Vec3>(frames)};
   std::vector<double> total(frames);
   for (std::size_t i = 0; i < holds.size(); ++i) {
     const Hold& hold = holds[i];
     double before = fade, after = fade;
-    if (i > 0) before = std::min(fade, static_cast<double>(hold.start - holds[i - 1].end + 1));
-    if (i + 1 < holds.size()) after = std::min(fade, static_cast<double>(holds[i + 1].start - hold.end + 1));
+    if (i > 0 && !overlaps(i))
+      before = std::min(fade, static_cast<double>(hold.start - holds[i - 1].end + 1));
+    if (i + 1 < holds.size() && !overlaps(i + 1))
+      after = std::min(fade, static_cast<double>(holds[i + 1].start - hold.end + 1));
     for (std::size_t t = 0; t < frames; ++t) {
       double part = 1;
       if (t < hold.start)
@@ -66,8 +74,34 @@ Goal goal_of(std::vector<Hold> holds, const Motion& motion, const std::string& j
   return goal;
 }
 
-std::map<int, std::vector<Hold>> holds_of(const Motion& motion, const WorldMotion& world,
-                                          const PinParams& params, const Contacts* contacts) {
+// The joints at which chains end: where joints that aren't pruned part, or ways to pinned joints do.
+std::vector<bool> branches(const Skeleton& skeleton, const std::vector<bool>& pruned,
+                           const std::set<int>& pinned) {
+  std::vector<int> children(skeleton.joints.size()), pinned_ways(skeleton.joints.size());
+  std::vector<bool> leads(skeleton.joints.size());
+  for (int j = skeleton.size() - 1; j > 0; --j) {
+    const int parent = skeleton.joints[j].parent;
+    leads[j] = leads[j] || pinned.contains(j);
+    if (!pruned[j]) ++children[parent];
+    if (!leads[j]) continue;
+    leads[parent] = true;
+    ++pinned_ways[parent];
+  }
+  std::vector<bool> out;
+  for (int j = 0; j < skeleton.size(); ++j) out.push_back(children[j] > 1 || pinned_ways[j] > 1);
+  return out;
+}
+
+// From the joint below the next branching down to `joint`.
+std::vector<int> chain_to(const Skeleton& skeleton, int joint, const std::vector<bool>& branching) {
+  std::vector<int> chain{joint};
+  for (int p = skeleton.joints[joint].parent; p >= 0 && !branching[p]; p = skeleton.joints[p].parent)
+    chain.push_back(p);
+  std::reverse(chain.begin(), chain.end());
+  return chain;
+}
+
+std::map<int, std::vector<Hold>> holds_of_pins(const Motion& motion, const PinParams& params) {
   const Skeleton& skeleton = motion.skeleton();
   std::map<int, std::vector<Hold>> holds;
   for (std::size_t i = 0; i < params.pins.size(); ++i) {
@@ -88,12 +122,30 @@ std::map<int, std::vector<Hold>> holds_of(const Motion& motion, const WorldMotio
                         .hinting("a range is [start, end) within the motion"));
     holds[joint].push_back({pinned.start, pinned.end, {pinned.position}, param});
   }
-  if (!contacts) return holds;
-  for (const FootPoint& point : contacts->points) {
-    const int joint = skeleton.find(point.joint_name);
-    if (joint < 0) continue;
-    for (const Run& run : runs_of(point.planted)) {
-      if (run.end > motion.frames()) break;
+  return holds;
+}
+
+// Adds what planted points hold. A planted joint that no chain leads to stays as it is, with a warning.
+void add_plants(const Motion& motion, const WorldMotion& world, const Contacts& contacts,
+                std::map<int, std::vector<Hold>>& holds, Work& work) {
+  const Skeleton& skeleton = motion.skeleton();
+  const std::vector<int> joints = contact_joints(contacts, motion, work);
+  const std::vector<bool> pruned = small_ends(skeleton);
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    const FootPoint& point = contacts.points[i];
+    const int joint = joints[i];
+    const std::vector<Run> runs = runs_of(point.planted);
+    if (joint < 0 || runs.empty()) continue;
+    if (chain_to(skeleton, joint, branches(skeleton, pruned, {joint})).size() < 2) {
+      work.report(warning("no-chain", fmt::format("no chain of joints leads to {}, so its planted point "
+                                                  "isn't held",
+                                                  point.joint_name))
+                      .at_port("contacts")
+                      .at_joint(point.joint_name)
+                      .hinting("let heels and balls of DetectContacts choose joints further down a leg"));
+      continue;
+    }
+    for (const Run& run : runs) {
       Vec3 mean;
       for (std::size_t t = run.start; t < run.end; ++t)
         mean += point_at(world, joint, point.local, t) / static_cast<double>(run.end - run.start);
@@ -101,22 +153,33 @@ std::map<int, std::vector<Hold>> holds_of(const Motion& motion, const WorldMotio
       std::vector<Vec3> target(motion.frames());
       for (std::size_t t = 0; t < motion.frames(); ++t)
         target[t] = mean + (world.position(joint)[t] - point_at(world, joint, point.local, t));
-      holds[joint].push_back({run.start, run.end, std::move(target), "contacts"});
+      holds[joint].push_back({run.start, run.end, std::move(target), ""});
     }
   }
-  return holds;
 }
 
-// From the joint below the next branching down to `joint`.
-std::vector<int> chain_to(const Skeleton& skeleton, int joint, const std::vector<bool>& pruned) {
-  std::vector<int> children(skeleton.joints.size());
-  for (int j = 1; j < skeleton.size(); ++j)
-    if (!pruned[j]) ++children[skeleton.joints[j].parent];
-  std::vector<int> chain{joint};
-  for (int p = skeleton.joints[joint].parent; p >= 0 && children[p] <= 1; p = skeleton.joints[p].parent)
-    chain.push_back(p);
-  std::reverse(chain.begin(), chain.end());
-  return chain;
+// Why no chain leads to a pinned joint: none does, or its chain ends where the way to another one parts.
+[[noreturn]] void refuse_short_chain(const Skeleton& skeleton, int joint, const Hold& hold,
+                                     const std::set<int>& pinned) {
+  const std::string& name = skeleton.joints[joint].name;
+  Diagnostic diagnostic =
+      error("no-chain", fmt::format("no chain of joints leads to {}, so nothing could bend", name))
+          .hinting("pin a joint further down a limb");
+  const int parent = skeleton.joints[joint].parent;
+  if (chain_to(skeleton, joint, branches(skeleton, small_ends(skeleton), {joint})).size() > 1)
+    for (int other : pinned) {
+      if (other == parent || !skeleton.is_below(other, parent) || skeleton.is_below(other, joint)) continue;
+      diagnostic = error("pins-apart",
+                         fmt::format("{} and {} are pinned and part at {}, so no chain leads to {} alone",
+                                     name, skeleton.joints[other].name, skeleton.joints[parent].name, name))
+                       .hinting(fmt::format("pin {}, one of the two, or joints further down both",
+                                            skeleton.joints[parent].name));
+      break;
+    }
+  diagnostic.joint = name;
+  diagnostic.param = hold.param;
+  if (hold.param.empty()) diagnostic.port = "contacts";
+  throw Failure(diagnostic);
 }
 
 // One chain, its pinned joints, and what lies below it.
@@ -125,9 +188,23 @@ struct PinnedChain {
   std::vector<std::pair<std::size_t, Goal>> goals;  // index into joints
 };
 
-void bend(const Skeleton& skeleton, const PinnedChain& chain, const WorldMotion& world, WorldMotion& moved,
-          const TurnLimits& limits, Work& work) {
+// Bends one chain of `moved`, in which the chains above it are bent already.
+void bend(const Skeleton& skeleton, const PinnedChain& chain, WorldMotion& moved, const TurnLimits& limits,
+          Work& work) {
+  const WorldMotion world = moved;
   const std::size_t frames = world.frames();
+  // What hangs on the chain rides with its joint.
+  std::vector<std::pair<int, std::size_t>> riders;
+  for (int j = chain.joints.front(); j < skeleton.size(); ++j) {
+    if (!skeleton.is_below(j, chain.joints.front())) continue;
+    int on = j;
+    auto at = std::find(chain.joints.begin(), chain.joints.end(), on);
+    while (at == chain.joints.end()) {
+      on = skeleton.joints[on].parent;
+      at = std::find(chain.joints.begin(), chain.joints.end(), on);
+    }
+    riders.emplace_back(j, static_cast<std::size_t>(at - chain.joints.begin()));
+  }
   std::vector<double> places{0};
   for (std::size_t i = 1; i < chain.joints.size(); ++i)
     places.push_back(places.back() + std::max(skeleton.link_length(chain.joints[i]), 1e-9));
@@ -160,18 +237,7 @@ void bend(const Skeleton& skeleton, const PinnedChain& chain, const WorldMotion&
       const std::vector<Vec3> bent = bent_chain(now, places, curves[set], given, targets);
       for (std::size_t i = 1; i < shift.size(); ++i) shift[i] += part * (bent[i] - now[i]);
     }
-    // What hangs on the chain rides with its joint.
-    for (int j = chain.joints.front(); j < skeleton.size(); ++j) {
-      if (!skeleton.is_below(j, chain.joints.front())) continue;
-      int on = j;
-      auto at = std::find(chain.joints.begin(), chain.joints.end(), on);
-      while (at == chain.joints.end()) {
-        on = skeleton.joints[on].parent;
-        at = std::find(chain.joints.begin(), chain.joints.end(), on);
-      }
-      moved.position(j).set(
-          t, world.position(j)[t] + shift[static_cast<std::size_t>(at - chain.joints.begin())]);
-    }
+    for (const auto& [j, on] : riders) moved.position(j).set(t, world.position(j)[t] + shift[on]);
   }
   const RestPose rest = rest_pose(skeleton);
   for (std::size_t i = 0; i + 1 < chain.joints.size(); ++i) {
@@ -196,18 +262,17 @@ Motion pin(const Motion& motion, const PinParams& params, const Contacts* contac
   const Skeleton& skeleton = motion.skeleton();
   if (motion.frames() == 0 || skeleton.size() == 0) return motion;
   const WorldMotion world = world_motion(motion, work);
-  const auto holds = holds_of(motion, world, params, contacts);
+  auto holds = holds_of_pins(motion, params);
+  if (contacts) add_plants(motion, world, *contacts, holds, work);
   if (holds.empty()) return motion;
-  const std::vector<bool> pruned = small_ends(skeleton);
-  std::map<int, PinnedChain> chains;  // by their first joint
+  std::set<int> pinned;
+  for (const auto& [joint, list] : holds) pinned.insert(joint);
+  const std::vector<bool> branching = branches(skeleton, small_ends(skeleton), pinned);
+  // By their first joint: those nearer to the root come first, and what they move is where the others start.
+  std::map<int, PinnedChain> chains;
   for (const auto& [joint, list] : holds) {
-    const std::vector<int> chain = chain_to(skeleton, joint, pruned);
-    if (chain.size() < 2)
-      throw Failure(error("no-chain", fmt::format("no chain of joints leads to {}, so nothing could bend",
-                                                  skeleton.joints[joint].name))
-                        .at_param(list.front().param)
-                        .at_joint(skeleton.joints[joint].name)
-                        .hinting("pin a joint further down a limb"));
+    const std::vector<int> chain = chain_to(skeleton, joint, branching);
+    if (chain.size() < 2) refuse_short_chain(skeleton, joint, list.front(), pinned);
     PinnedChain& known = chains[chain.front()];
     if (chain.size() > known.joints.size()) known.joints = chain;
     known.goals.emplace_back(chain.size() - 1,
@@ -215,13 +280,14 @@ Motion pin(const Motion& motion, const PinParams& params, const Contacts* contac
     if (known.goals.size() > most_goals)
       throw Failure(
           error("too-many-pins", fmt::format("more than {} joints of one chain are pinned", most_goals))
+              .at_joint(skeleton.joints[joint].name)
               .at_param(list.front().param));
   }
   WorldMotion moved = world;
   for (auto& [first, chain] : chains) {
     std::sort(chain.goals.begin(), chain.goals.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
-    bend(skeleton, chain, world, moved, turn_limits(motion.fps()), work);
+    bend(skeleton, chain, moved, turn_limits(motion.fps()), work);
   }
   return motion_from_world(motion.shared_skeleton(), motion.shared_source(), motion.fps(),
                            motion.translating(), moved, work);

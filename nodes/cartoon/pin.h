@@ -24,10 +24,12 @@ struct PinParams {
 // In its frames a pinned joint stands at its point; in the fades it goes there by a part of the way, f
 // (target − p). The chain above it, up to where it branches off, follows by bent_chain(): the first joint's
 // place and the chain's direction there stay, its own bends turn with it, and else it bends least (a cubic
-// spline, clamped above and free at the pin); several joints of a chain may be pinned at once. The pinned
-// joint keeps its orientation, what lies below rides with it; links change length. `contacts`, where given:
-// each planted point stays at its mean place over the plant. Throws Failure at `pins[i]` ("unknown-joint",
-// "no-chain", "pins-overlap", "bad-range").
+// spline, clamped above and free at the pin); several joints of a chain may be pinned at once. Where the ways
+// to two pinned joints part, a chain ends too. Chains nearer to the root come first: the others hang on what
+// they move. The pinned joint keeps its orientation, what lies below rides with it; links change length.
+// `contacts`, where given: each planted point stays at its mean place over the plant (joints as
+// contact_joints(); those without a chain are warned about). Throws Failure at `pins[i]` ("unknown-joint",
+// "no-chain", "pins-apart", "pins-overlap", "bad-range", "too-many-pins") or at the port `contacts`.
 Motion pin(const Motion& motion, const PinParams& params, const Contacts* contacts, Work& work);
 
 }  // namespace kinegraph

@@ -30,7 +30,7 @@ PinParams settings_of(const Params& params, const Motion& motion) {
 NodeType pin_node() {
   NodeType type;
   type.name = "Pin";
-  type.code_version = 3;
+  type.code_version = 4;
   type.category = "cartoon";
   type.help =
       "Makes hands, feet or other ends of chains pass exactly through given points, by bending the chain.";
@@ -55,10 +55,6 @@ NodeType pin_node() {
   type.compute = [](Compute& compute) {
     const auto motion = compute.shared_input<Motion>("motion");
     const Contacts* contacts = compute.optional_input<Contacts>("contacts");
-    if (contacts && contacts->frames != motion->frames())
-      throw Failure(error("frames-differ", "the contacts have another number of frames than the motion")
-                        .at_port("contacts")
-                        .hinting("find them in this motion, or in one of the same length"));
     compute.output("motion", pin(*motion, settings_of(compute.params(), *motion), contacts, compute.work()));
   };
   return type;

@@ -65,11 +65,12 @@ std::vector<double> faded(const std::vector<bool>& flags, double fade) {
 }
 
 std::vector<std::vector<double>> swing_left(const Motion& motion, const SubJoints& sub,
-                                            const Contacts& contacts) {
+                                            const Contacts& contacts, const std::vector<int>& joints) {
   std::vector<std::vector<double>> left(sub.all.size());
   const Skeleton& skeleton = motion.skeleton();
-  for (const FootPoint& point : contacts.points) {
-    const int joint = skeleton.find(point.joint_name);
+  for (std::size_t p = 0; p < contacts.points.size(); ++p) {
+    const FootPoint& point = contacts.points[p];
+    const int joint = joints[p];
     if (joint < 0 || runs_of(point.planted).empty()) continue;
     std::vector<bool> planted = point.planted;
     planted.resize(motion.frames());

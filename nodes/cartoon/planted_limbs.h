@@ -9,10 +9,10 @@
 namespace kinegraph {
 
 // For each sub-joint a series of factors, empty = 1 throughout: 0 at and below a planted joint, growing to 1
-// at the upper end of its group, and in time over 0.12 s before and after each plant (C²). Contact points of
-// joints that the skeleton lacks are left out.
+// at the upper end of its group, and in time over 0.12 s before and after each plant (C²). `joints`:
+// contact_joints().
 std::vector<std::vector<double>> swing_left(const Motion& motion, const SubJoints& sub,
-                                            const Contacts& contacts);
+                                            const Contacts& contacts, const std::vector<int>& joints);
 
 // 6 u⁵ − 15 u⁴ + 10 u³, held at 0 and 1 outside [0, 1].
 double smoothest_step(double u);

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "nodes/cartoon/contact_joints.h"
 #include "nodes/cartoon/link_turns.h"
 #include "nodes/cartoon/planted_limbs.h"
 #include "nodes/cartoon/sub_joint_flips.h"
@@ -135,6 +136,7 @@ RubberResult rubber_joints(const Motion& motion, const RubberParams& params, con
     result.motion = motion;
     return result;
   }
+  const std::vector<int> planted = contacts ? contact_joints(*contacts, motion, work) : std::vector<int>();
   result.sub_joints = lay_sub_joints(motion, params.sub_joints, work);
   const SubJoints& sub = result.sub_joints;
   const std::shared_ptr<const Skeleton> rubber = sub_skeleton(motion, sub, work).skeleton;
@@ -145,8 +147,8 @@ RubberResult rubber_joints(const Motion& motion, const RubberParams& params, con
   straighten_flips(sub, watch, world, motion.fps(), places, work);
   work.progress(0.2);
   if (params.simulate && params.blend != 0 && motion.frames() > 1) {
-    const auto left =
-        contacts ? swing_left(motion, sub, *contacts) : std::vector<std::vector<double>>(sub.all.size());
+    const auto left = contacts ? swing_left(motion, sub, *contacts, planted)
+                               : std::vector<std::vector<double>>(sub.all.size());
     add_swings(sub, watch, swings(motion, sub, params, places, work), left, motion.fps(), places, work);
   }
   work.progress(0.7);

@@ -94,10 +94,6 @@ NodeType rubber_joints_node() {
       found = found_contacts(*motion, work);
       if (found) contacts = &*found;
     }
-    if (contacts && contacts->frames != motion->frames())
-      throw Failure(error("frames-differ", "the contacts have another number of frames than the motion")
-                        .at_port("contacts")
-                        .hinting("find them in this motion, or in one of the same length"));
     RubberResult rubber = rubber_joints(*motion, settings, contacts, work);
     if (const auto* character = compute.optional_input<Character>("character")) {
       if (compute.wanted("character"))

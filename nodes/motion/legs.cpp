@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nodes/motion/cut_links.h"
 #include "nodes/motion/joint_names.h"
 #include "nodes/motion/limb_chains.h"
 #include "nodes/motion/skeleton.h"
@@ -16,21 +17,24 @@ double world_length(const RestPose& pose, int a, int b) {
 }
 
 // The joint after the ankle: named so, else the child with the longest link; -1 where there is none with a
-// length.
-int toe_below(const Skeleton& skeleton, const std::vector<JointName>& meanings, const RestPose& pose,
-              int ankle) {
-  int toe = -1;
-  for (int j = ankle + 1; j < skeleton.size(); ++j) {
-    if (meanings[j].part == BodyPart::toe && skeleton.joints[j].parent == ankle &&
-        (toe < 0 || world_length(pose, j, ankle) > world_length(pose, toe, ankle)))
+// length. Joints on a cut link are passed by.
+int toe_below(const Skeleton& skeleton, const std::vector<bool>& cut, const std::vector<JointName>& meanings,
+              const RestPose& pose, int ankle) {
+  const auto longest = [&](auto fits) {
+    int toe = -1;
+    double longest_link = 0;
+    for (int j = ankle + 1; j < skeleton.size(); ++j) {
+      if (cut[j] || whole_parent(skeleton, cut, j) != ankle || !fits(j)) continue;
+      const double length = world_length(pose, j, ankle);
+      if (toe >= 0 && !(length > longest_link)) continue;
       toe = j;
-  }
-  if (toe >= 0) return toe;
-  for (int j : skeleton.children(ankle)) {
-    double length = world_length(pose, j, ankle);
-    if (length > 0 && (toe < 0 || length > world_length(pose, toe, ankle))) toe = j;
-  }
-  return toe;
+      longest_link = length;
+    }
+    return toe;
+  };
+  const int named = longest([&](int j) { return meanings[j].part == BodyPart::toe; });
+  if (named >= 0) return named;
+  return longest([&](int j) { return world_length(pose, j, ankle) > 0; });
 }
 
 void add_toe_tip(const Skeleton& skeleton, Leg& leg) {
@@ -39,21 +43,21 @@ void add_toe_tip(const Skeleton& skeleton, Leg& leg) {
     if (end.joint == joint && norm(end.offset) > 0 && !leg.toe_tip) leg.toe_tip = end.offset;
 }
 
-std::optional<Leg> named_leg(const Skeleton& skeleton, const std::vector<JointName>& meanings,
-                             const RestPose& pose, Side side) {
+std::optional<Leg> named_leg(const Skeleton& skeleton, const std::vector<bool>& cut,
+                             const std::vector<JointName>& meanings, const RestPose& pose, Side side) {
   for (int ankle = 0; ankle < skeleton.size(); ++ankle) {
-    if (meanings[ankle].side != side || meanings[ankle].part != BodyPart::foot) continue;
+    if (cut[ankle] || meanings[ankle].side != side || meanings[ankle].part != BodyPart::foot) continue;
     Leg leg;
     leg.left = side == Side::left;
     leg.ankle = ankle;
     // The topmost of several: upperleg01, upperleg02, lowerleg01, lowerleg02.
     for (int j = skeleton.joints[ankle].parent; j >= 0; j = skeleton.joints[j].parent) {
-      if (meanings[j].side != side) continue;
+      if (cut[j] || meanings[j].side != side) continue;
       if (meanings[j].part == BodyPart::shin && leg.hip < 0) leg.knee = j;
       if (meanings[j].part == BodyPart::thigh && leg.knee >= 0) leg.hip = j;
     }
     if (leg.hip < 0 || leg.knee < 0) continue;
-    leg.toe = toe_below(skeleton, meanings, pose, ankle);
+    leg.toe = toe_below(skeleton, cut, meanings, pose, ankle);
     return leg;
   }
   return {};
@@ -61,7 +65,8 @@ std::optional<Leg> named_leg(const Skeleton& skeleton, const std::vector<JointNa
 
 // --- by geometry ---
 
-std::optional<Leg> leg_of_chain(const RestPose& pose, const std::vector<int>& chain) {
+std::optional<Leg> leg_of_chain(const RestPose& pose, const std::vector<bool>& cut, std::vector<int> chain) {
+  std::erase_if(chain, [&](int j) { return cut[j]; });
   const std::vector<int> limb = longest_limb(pose, chain);
   if (limb.empty()) return {};
   Leg leg;
@@ -72,7 +77,8 @@ std::optional<Leg> leg_of_chain(const RestPose& pose, const std::vector<int>& ch
   return leg;
 }
 
-std::vector<Leg> legs_by_geometry(const Skeleton& skeleton, const RestPose& pose) {
+std::vector<Leg> legs_by_geometry(const Skeleton& skeleton, const std::vector<bool>& cut,
+                                  const RestPose& pose) {
   double height = rest_height(skeleton);
   std::vector<int> leaves;
   for (int j = 0; j < skeleton.size(); ++j)
@@ -85,8 +91,8 @@ std::vector<Leg> legs_by_geometry(const Skeleton& skeleton, const RestPose& pose
     for (std::size_t k = i + 1; k < leaves.size(); ++k) {
       if (pose.positions[leaves[k]].y > low + 0.2 * height) break;
       int top = common_ancestor(skeleton, leaves[i], leaves[k]);
-      auto one = leg_of_chain(pose, chain_between(skeleton, top, leaves[i]));
-      auto other = leg_of_chain(pose, chain_between(skeleton, top, leaves[k]));
+      auto one = leg_of_chain(pose, cut, chain_between(skeleton, top, leaves[i]));
+      auto other = leg_of_chain(pose, cut, chain_between(skeleton, top, leaves[k]));
       if (!one || !other) continue;
       double a = world_length(pose, one->hip, one->knee) + world_length(pose, one->knee, one->ankle);
       double b = world_length(pose, other->hip, other->knee) + world_length(pose, other->knee, other->ankle);
@@ -114,12 +120,13 @@ std::vector<Leg> legs_by_geometry(const Skeleton& skeleton, const RestPose& pose
 std::vector<Leg> find_legs(const Skeleton& skeleton) {
   if (skeleton.joints.empty()) return {};
   RestPose pose = rest_pose(skeleton);
+  const std::vector<bool> cut = on_cut_links(skeleton);
   std::vector<JointName> meanings;
   for (const Joint& joint : skeleton.joints) meanings.push_back(read_joint_name(joint.name));
   std::vector<Leg> legs;
   for (Side side : {Side::left, Side::right})
-    if (auto leg = named_leg(skeleton, meanings, pose, side)) legs.push_back(*leg);
-  if (legs.empty()) legs = legs_by_geometry(skeleton, pose);
+    if (auto leg = named_leg(skeleton, cut, meanings, pose, side)) legs.push_back(*leg);
+  if (legs.empty()) legs = legs_by_geometry(skeleton, cut, pose);
   for (Leg& leg : legs) add_toe_tip(skeleton, leg);
   return legs;
 }

@@ -212,6 +212,123 @@ TEST(Pin, HoldsPlantedFeetThatExaggerationMoved) {
   EXPECT_LT(after, 1e-9);
 }
 
+TEST(Pin, LeavesArmsOnATorsoThatIsPinnedWithThem) {
+  Alone work;
+  const Motion walk = gait("walk", 3);
+  const WorldMotion before = world_motion(walk);
+  const auto joint = [&](const char* name) { return walk.skeleton().find(name); };
+  const Vec3 chest = before.position(joint("Spine1"))[70] + Vec3{0.2, 0.1, -0.15};
+  const Vec3 goal = chest + (before.position(joint("LeftHand"))[67] - before.position(joint("Spine1"))[67]) +
+                    Vec3{0.1, 0.1, 0.1};
+  PinParams params;
+  params.pins = {{"Spine1", 60, 90, chest}, {"LeftHand", 65, 70, goal}};
+  const Motion out = pin(walk, params, nullptr, work);
+  const WorldMotion after = world_motion(out);
+  for (std::size_t t = 60; t < 90; ++t) {
+    EXPECT_LT(norm(after.position(joint("Spine1"))[t] - chest), 1e-9);
+    if (t >= 65 && t < 70) {
+      EXPECT_LT(norm(after.position(joint("LeftHand"))[t] - goal), 1e-9);
+    }
+    // Shoulders, neck and the other hand ride on the chest.
+    for (const char* rider : {"LeftShoulder", "RightShoulder", "Neck", "RightHand"})
+      EXPECT_LT(norm((after.position(joint(rider))[t] - chest) -
+                     (before.position(joint(rider))[t] - before.position(joint("Spine1"))[t])),
+                1e-9)
+          << rider << " " << t;
+  }
+  // A hand that is pinned at another time changes nothing of that.
+  params.pins[1] = {"LeftHand", 150, 160, goal};
+  EXPECT_LT(norm((world_motion(pin(walk, params, nullptr, work)).position(joint("LeftHand"))[75] - chest) -
+                 (before.position(joint("LeftHand"))[75] - before.position(joint("Spine1"))[75])),
+            1e-9);
+}
+
+TEST(Pin, PutsFingersOfOneHandWhereTheyShallBe) {
+  Alone work;
+  Motion walk = gait("walk", 1);
+  auto skeleton = std::make_shared<Skeleton>(walk.skeleton());
+  const int hand = skeleton->find("LeftHand");
+  for (const char* finger : {"LeftHandThumb", "LeftHandPinky"}) {
+    skeleton->joints.push_back({std::string(finger) + "1", hand, {0.02, 0.01, 0.03}, {}});
+    skeleton->joints.push_back({std::string(finger) + "2", skeleton->size() - 1, {0.04, 0, 0}, {}});
+  }
+  std::vector<bool> translates(skeleton->joints.size());
+  translates[0] = true;
+  Motion hands(skeleton, std::make_shared<SourceFacts>(), walk.fps(), walk.frames(), translates);
+  for (int j = 0; j < walk.joints(); ++j)
+    for (std::size_t t = 0; t < walk.frames(); ++t) hands.rotation(j).set(t, walk.rotation(j)[t]);
+  for (std::size_t t = 0; t < walk.frames(); ++t) hands.translation(0).set(t, walk.translation(0)[t]);
+
+  const WorldMotion before = world_motion(hands);
+  const auto pinned = [&](const char* joint, Vec3 by) {
+    return PinnedJoint{joint, 50, 60, before.position(skeleton->find(joint))[55] + by};
+  };
+  PinParams params;
+  params.pins = {pinned("LeftHandThumb2", {0, 0.03, 0}), pinned("LeftHandPinky2", {0, 0.02, 0}),
+                 pinned("LeftHand", {0, 0.1, 0})};
+  const WorldMotion after = world_motion(pin(hands, params, nullptr, work));
+  for (const PinnedJoint& one : params.pins)
+    for (std::size_t t = 50; t < 60; ++t)
+      EXPECT_LT(norm(after.position(skeleton->find(one.joint))[t] - one.position), 1e-9) << one.joint;
+
+  params.pins = {pinned("LeftHandThumb1", {0, 0.1, 0}), pinned("LeftHandPinky1", {0, 0.1, 0})};
+  try {
+    pin(hands, params, nullptr, work);
+    ADD_FAILURE() << "two joints of one parent were pinned";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.diagnostic().code, "pins-apart");
+    EXPECT_THAT(failure.diagnostic().message,
+                testing::AllOf(testing::HasSubstr("LeftHandThumb1"), testing::HasSubstr("LeftHandPinky1")));
+  }
+  params.pins.pop_back();  // one finger alone takes the arm with it
+  EXPECT_LT(norm(world_motion(pin(hands, params, nullptr, work)).position(hand)[55] -
+                 (before.position(hand)[55] +
+                  (params.pins[0].position - before.position(skeleton->find("LeftHandThumb1"))[55]))),
+            0.1);
+}
+
+TEST(PinNode, SaysWhichContactsHoldNothing) {
+  const Motion walk = gait("walk", 1);
+  Alone work;
+  Contacts contacts = detect_contacts(walk, {}, work);
+  for (FootPoint& point : contacts.points) point.planted.assign(walk.frames(), true);
+  const auto run = [&](const Contacts& given) {
+    NodeInMemory node(pin_node());
+    node.link("motion", walk).link("contacts", given).run();
+    std::string said;
+    for (const Diagnostic& d : node.reported()) said += d.code + " " + d.port + " " + d.message + "; ";
+    return said;
+  };
+  const auto refusal = [&](const Contacts& given) {
+    const Diagnostic d = NodeInMemory(pin_node()).link("motion", walk).link("contacts", given).refusal();
+    return d.code + " " + d.port;
+  };
+  EXPECT_EQ(run(contacts), "");
+  Contacts some = contacts, none = contacts, slow = contacts, chainless = contacts;
+  some.points[1].joint_name = "ltoes";
+  EXPECT_THAT(run(some), testing::AllOf(testing::StartsWith("no-partner contacts"),
+                                        testing::HasSubstr("1 of the 4"), testing::HasSubstr("ltoes")));
+  for (FootPoint& point : none.points) point.joint_name = "l" + point.part;
+  EXPECT_EQ(refusal(none), "no-common-joint contacts");
+  slow.fps = 30;
+  EXPECT_EQ(refusal(slow), "rates-differ contacts");
+  chainless.points[0].joint_name = "LeftUpLeg";
+  EXPECT_THAT(run(chainless), testing::StartsWith("no-chain contacts"));
+}
+
+TEST(Pin, StandsBetweenHeelAndBallOfAFootWithoutToes) {
+  Alone work;
+  const Motion walk = gait("walk", 1);
+  Contacts contacts = detect_contacts(walk, {}, work);
+  for (FootPoint& point : contacts.points) {
+    point.joint_name = point.foot;
+    point.planted.assign(walk.frames(), false);
+    for (std::size_t t = point.part == "heel" ? 20 : 30; t < (point.part == "heel" ? 60 : 80); ++t)
+      point.planted[t] = true;
+  }
+  EXPECT_NO_THROW(pin(walk, {}, &contacts, work));
+}
+
 TEST(Pin, ChangesNothingWithoutPins) {
   Alone work;
   const Motion walk = gait("walk", 1);

@@ -8,6 +8,7 @@
 #include "nodes/cartoon/exaggerate.h"
 #include "nodes/cartoon/link_turns.h"
 #include "nodes/feet/detect_contacts.h"
+#include "nodes/feet/foot_points.h"
 #include "nodes/files/bvh_read.h"
 #include "nodes/files/bvh_write.h"
 #include "nodes/gait/gait_skeleton.h"
@@ -258,6 +259,34 @@ TEST(RubberJoints, StayNearTheLimbOnRealClips) {
     }
     EXPECT_LT(worst, 0.3) << file;
     RecordProperty(file, std::to_string(worst) + " of the group's length");
+  }
+}
+
+TEST(RubberJoints, HaveTheFeetOfTheirInput) {
+  KINEGRAPH_NEEDS_MOCAP();
+  Alone work;
+  std::vector<Motion> clips{gait("walk", 1)};
+  for (const char* file : {"cmu/bvh/08_01.bvh", "cmu/asfamc/17_10.amc", "m21/kick.bvh", "gltf/CesiumMan.glb",
+                           "cmu/bvh_daz/10_01.bvh", "bandai/dataset-1_walk_normal_001.bvh"})
+    clips.push_back(cartoon_clip(file, 20));
+  for (const Motion& clip : clips) {
+    const Motion rubber = rubber_joints(clip, {}, nullptr, work).motion;
+    const auto names = [](const Skeleton& skeleton) {
+      std::vector<std::string> all;
+      for (const Leg& leg : find_legs(skeleton))
+        for (int j : {leg.hip, leg.knee, leg.ankle, leg.toe})
+          all.push_back(j < 0 ? "none" : skeleton.joints[j].name);
+      return all;
+    };
+    EXPECT_THAT(names(rubber.skeleton()), testing::ElementsAreArray(names(clip.skeleton())));
+    const auto points = [&](const Skeleton& skeleton) {
+      std::vector<std::string> all;
+      for (const FootPoint& point : foot_points(skeleton, "", "", work))
+        all.push_back(point.part + " " + point.joint_name);
+      return all;
+    };
+    EXPECT_THAT(points(rubber.skeleton()), testing::ElementsAreArray(points(clip.skeleton())));
+    EXPECT_FALSE(points(clip.skeleton()).empty());
   }
 }
 
