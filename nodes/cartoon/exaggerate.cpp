@@ -12,12 +12,14 @@
 #include "nodes/cartoon/link_turns.h"
 #include "nodes/cartoon/world_to_local.h"
 #include "nodes/motion/elementary.h"
+#include "nodes/node_params.h"
 #include "nodes/time/gaussian.h"
 
 namespace kinegraph {
 namespace {
 
 constexpr double longest_told = 3, shortest_told = 1.0 / 3;  // |w| / |v| beyond which a link is warned about
+constexpr double least_told = 1.005;  // below it no link is named: it has "1.00 times its length"
 constexpr double most_turn_a_second = 30 * 120 / degrees_per_radian;  // of a link, if the input's turns less
 constexpr double least_sigma = 1e-3;  // of a frame: below it the average is the joint
 
@@ -114,9 +116,12 @@ void tell(const Motion& motion, const ExaggerateParams& params, const Exaggerate
         fmt::format("{} iterations brought the error of the links from {:.4f} to {:.4f}; ",
                     result.correction.iterations, result.correction.error_before, result.correction.error);
   text += fmt::format("the longest link has {:.2f} times its length", stretch.largest);
-  work.report(info("exaggerated", std::move(text))
-                  .at_joint(name(stretch.largest_joint))
-                  .at_frame(static_cast<std::int64_t>(stretch.largest_frame)));
+  Diagnostic done = info("exaggerated", std::move(text));
+  if (stretch.largest >= least_told) {
+    done.joint = name(stretch.largest_joint);
+    done.frame = static_cast<std::int64_t>(stretch.largest_frame);
+  }
+  work.report(std::move(done));
   if (corrected && !result.correction.met)
     work.report(warning("correction-unfinished",
                         fmt::format("after {} iterations the error is {:.4f} and the longest link has {:.2f} "
@@ -183,7 +188,8 @@ double dominant_period(const WorldMotion& world, double fps) {
   return static_cast<double>(best > 0 ? best : frames) / fps;
 }
 
-ExaggerateResult exaggerate(const Motion& motion, const ExaggerateParams& params, Work& work) {
+ExaggerateResult exaggerate(const Motion& motion, const ExaggerateParams& params, Work& work,
+                            const MotionPart* part) {
   ExaggerateResult result;
   result.sigma = params.sigma;
   result.omega = params.omega;
@@ -230,10 +236,14 @@ ExaggerateResult exaggerate(const Motion& motion, const ExaggerateParams& params
     hold_link_flips(skeleton, lengths, world, {most_turn_a_second / motion.fps(), times_input}, moved, work);
   }
   work.progress(0.8);
-  result.stretch = link_stretch(skeleton, lengths, moved);
   aim_links(skeleton, links_below(motion), world, turn_limits(motion.fps()), moved, work);
   result.motion = motion_from_world(motion.shared_skeleton(), motion.shared_source(), motion.fps(),
                                     motion.translating(), moved, work);
+  if (part) {
+    result.motion = blended_change(motion, result.motion, part->joints, part->weights);
+    moved = world_motion(result.motion, work);
+  }
+  result.stretch = link_stretch(skeleton, lengths, moved);
   tell(motion, params, result, corrected, work);
   tell_of_stretched(skeleton, lengths, moved, work);
   return result;

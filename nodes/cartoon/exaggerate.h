@@ -24,7 +24,14 @@ struct ExaggerateResult {
   Motion motion;                // links that change length have translation tracks
   double omega = 1, sigma = 0;  // used
   LinkCorrectionResult correction;
-  LinkStretch stretch;  // of the result
+  LinkStretch stretch;  // of the result's links against the input's
+};
+
+// What of a motion changes, as blended_change() takes it: chosen joints, and how much of the change at each
+// frame.
+struct MotionPart {
+  std::vector<bool> joints;
+  std::vector<double> weights;
 };
 
 // Joints that stand on their parent follow it; End Sites ride rigidly. Orientations: aim_links() of
@@ -32,8 +39,10 @@ struct ExaggerateResult {
 // dominant period, ω is found by bisection so that the 99th percentile of |w| / |v| is the wish, and the
 // correction is left to do only what max_link asks, as it would take the wished stretch away again. Warns
 // ("stretched-link") of a link over 3 times or under a third of its length, ("correction-unfinished") of
-// goals not met, ("wish-unreached").
-ExaggerateResult exaggerate(const Motion& motion, const ExaggerateParams& params, Work& work);
+// goals not met, ("wish-unreached"). Where a `part` is given the motion changes there only, and lengths are
+// told of what comes out.
+ExaggerateResult exaggerate(const Motion& motion, const ExaggerateParams& params, Work& work,
+                            const MotionPart* part = nullptr);
 
 // The dominant period of a motion in seconds, by the autocorrelation of its joints' speeds about the root;
 // the clip's length where nothing repeats.

@@ -58,7 +58,7 @@ ExaggerateParams settings_of(const Params& params, const Motion& motion, Work& w
 NodeType exaggerate_node() {
   NodeType type;
   type.name = "Exaggerate";
-  type.code_version = 4;
+  type.code_version = 5;
   type.category = "cartoon";
   type.help =
       "Exaggerates a motion: every joint swings further from its own average over time, and limbs stretch "
@@ -98,15 +98,12 @@ NodeType exaggerate_node() {
     const ExaggerateParams settings = settings_of(params, *motion, work);
     const auto joints = chosen_joints(params.text("joints"), motion->skeleton(), "joints", work);
     if (motion->frames() == 0) return compute.set_output("motion", motion);
-    const auto weights = change_weights(params, motion->frames(), motion->fps());
-    ExaggerateResult result = exaggerate(*motion, settings, work);
+    const MotionPart part{joints, change_weights(params, motion->frames(), motion->fps())};
     const auto whole = [](const auto& all) {
       return std::all_of(all.begin(), all.end(), [](auto one) { return one == 1; });
     };
-    if (whole(joints) && whole(weights))
-      compute.output("motion", std::move(result.motion));
-    else
-      compute.output("motion", blended_change(*motion, result.motion, joints, weights));
+    const bool all = whole(part.joints) && whole(part.weights);
+    compute.output("motion", exaggerate(*motion, settings, work, all ? nullptr : &part).motion);
   };
   return type;
 }

@@ -10,10 +10,14 @@
 namespace kinegraph {
 namespace {
 
-bool is_small_end(std::string name) {
+std::string lower(std::string name) {
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return name;
+}
+
+bool is_small_end(const std::string& name) {
   const auto has = [&](std::string_view part) { return name.find(part) != std::string::npos; };
-  if (has("finger") || has("thumb") || has("pinky") || has("metacarpal")) return true;
+  if (has("finger") || has("thumb") || has("pinky") || has("metacarpal") || has("metatarsal")) return true;
   if (has("toe") && (has("end") || has("nub") || has("site"))) return true;
   // Mixamo's LeftHandIndex1, CMU's LeftHandIndex1, index_01_l; not an index of anything else.
   for (auto finger : {"index", "middle", "ring", "little"}) {
@@ -29,6 +33,20 @@ bool is_small_end(std::string name) {
   return false;
 }
 
+// "rMid1", "CC_Base_L_Mid1": a middle finger beside other fingers, the middle of something elsewhere.
+bool is_middle(const std::string& name) {
+  const auto at = name.find("mid");
+  return at != std::string::npos && at + 3 < name.size() &&
+         std::isdigit(static_cast<unsigned char>(name[at + 3]));
+}
+
+// Bones beside a limb's own that share its twist or the skin of its bend: "CC_Base_L_CalfTwist01",
+// "CC_Base_L_KneeShareBone", "upperarm_twist_01_l", "LeftForeArmRoll".
+bool is_beside(const std::string& name) {
+  return name.find("twist") != std::string::npos || name.find("sharebone") != std::string::npos ||
+         name.ends_with("roll");
+}
+
 int find_joint(const Skeleton& skeleton, const std::string& name, std::size_t group) {
   const int joint = skeleton.find(name);
   if (joint >= 0) return joint;
@@ -42,9 +60,27 @@ int find_joint(const Skeleton& skeleton, const std::string& name, std::size_t gr
 }  // namespace
 
 std::vector<bool> small_ends(const Skeleton& skeleton) {
-  std::vector<bool> small(skeleton.joints.size());
-  for (int j = 1; j < skeleton.size(); ++j)
-    small[j] = small[skeleton.joints[j].parent] || is_small_end(skeleton.joints[j].name);
+  const std::size_t count = skeleton.joints.size();
+  std::vector<std::string> names;
+  for (const Joint& joint : skeleton.joints) names.push_back(lower(joint.name));
+  // A twist bone that leads on to others, as a neck's does, is of the limb itself.
+  std::vector<bool> small(count), beside(count, true);
+  for (int j = skeleton.size() - 1; j > 0; --j) {
+    beside[j] = beside[j] && is_beside(names[j]);
+    if (!beside[j]) beside[skeleton.joints[j].parent] = false;
+  }
+  std::vector<int> fingers(count), toes(count);
+  for (int j = 1; j < skeleton.size(); ++j) {
+    if (beside[j]) continue;
+    fingers[skeleton.joints[j].parent] += is_small_end(names[j]);
+    toes[skeleton.joints[j].parent] += names[j].find("toe") != std::string::npos;
+  }
+  for (int j = 1; j < skeleton.size(); ++j) {
+    const int parent = skeleton.joints[j].parent;
+    small[j] = small[parent] || beside[j] || is_small_end(names[j]) ||
+               (fingers[parent] > 0 && is_middle(names[j])) ||
+               (toes[parent] > 1 && names[j].find("toe") != std::string::npos);
+  }
   return small;
 }
 

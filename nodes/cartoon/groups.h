@@ -8,7 +8,10 @@
 
 namespace kinegraph {
 
-// Fingers, thumbs and toe ends, by their names: one flag a joint, true also for all below one.
+// Fingers, thumbs, toe ends and single toes (several below one joint), by their names: one flag a joint, true
+// also for all below one. Nor are those bones a limb's own that stand beside it to share its twist or the
+// skin of its bend and lead to nothing else: [Kwon] has no such bones, and with them as branches thighs and
+// arms of Character Creator's bodies would be in no group.
 std::vector<bool> small_ends(const Skeleton& skeleton);
 
 // A joint without children is in a group; a parent with exactly one child is in its child's group if the

@@ -1,4 +1,8 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "graph/compute.h"
@@ -7,6 +11,8 @@
 #include "nodes/cartoon/rubber_skin.h"
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/motion/joint_pattern.h"
+#include "nodes/node_params.h"
+#include "nodes/quiet_work.h"
 
 namespace kinegraph {
 namespace {
@@ -35,11 +41,33 @@ RubberParams settings_of(const Params& params) {
 // Where no contacts are linked the feet's own; a skeleton without feet has none.
 std::optional<Contacts> found_contacts(const Motion& motion, Work& work) {
   try {
-    return detect_contacts(motion, {}, work);
+    QuietWork quiet(work);
+    Contacts found = detect_contacts(motion, {}, quiet);
+    if (std::all_of(found.points.begin(), found.points.end(),
+                    [](const FootPoint& point) { return runs_of(point.planted).empty(); }))
+      work.report(info("no-contacts", "no foot rests anywhere, so feet swing with their limbs")
+                      .at_port("contacts")
+                      .hinting("exaggerated feet seldom rest: link the contacts of the clip before that"));
+    return found;
   } catch (const Failure& failure) {
     if (failure.diagnostic().code != "no-feet") throw;
     return {};
   }
+}
+
+// Which chains became limbs of rubber, and into how many sub-joints each was cut.
+void tell_of_limbs(const Skeleton& skeleton, const SubJoints& sub, Work& work) {
+  std::vector<std::string> limbs;
+  for (const auto& group : sub.groups) {
+    int count = 0;
+    for (int joint : group) count += sub.all[sub.first[joint]].count;
+    if (count > static_cast<int>(group.size()))
+      limbs.push_back(fmt::format("{}…{} {}", skeleton.joints[group.front()].name,
+                                  skeleton.joints[group.back()].name, count));
+  }
+  work.report(
+      info("sub-joints", fmt::format("{} joints were cut into {} sub-joints; limbs: {}", skeleton.size(),
+                                     sub.all.size(), limbs.empty() ? "none" : listed(limbs))));
 }
 
 }  // namespace
@@ -47,7 +75,7 @@ std::optional<Contacts> found_contacts(const Motion& motion, Work& work) {
 NodeType rubber_joints_node() {
   NodeType type;
   type.name = "RubberJoints";
-  type.code_version = 4;
+  type.code_version = 5;
   type.category = "cartoon";
   type.help =
       "Turns limbs into rubber: cuts links into sub-joints, bends them along curves and lets them follow "
@@ -58,7 +86,8 @@ NodeType rubber_joints_node() {
   type.input("motion", {"Motion"}, "the motion whose limbs become rubber");
   type.optional_input("character", {"Character"}, "a skinned mesh that gets the same sub-joints");
   type.optional_input("contacts", {"Contacts"},
-                      "planted points, which don't swing; open: found as DetectContacts does");
+                      "planted points, which don't swing, best those of the clip before it was exaggerated; "
+                      "open: found as DetectContacts does");
   type.output("motion", "Motion", "the motion on the sub-joint skeleton", "motion");
   type.output("character", "Character",
               "the mesh on the sub-joint skeleton, its weights shared out; with a character in", "character");
@@ -68,8 +97,9 @@ NodeType rubber_joints_node() {
              list(object({required(text("")).as("from", "the chain's joint nearest to the root"),
                           required(text("")).as("to", "its last joint")})),
              "chains that bend as one curve; empty: every limb below its last branching");
-  type.param("prune", pattern("").checked_by(check_pattern),
-             "joints that don't count as branches; empty: fingers, thumbs and toe ends by their names");
+  type.param(
+      "prune", pattern("").checked_by(check_pattern),
+      "joints that don't count as branches; empty: fingers, thumbs, toe ends and twist bones by their names");
   type.param("simulate", boolean(true), "let sub-joints follow through on springs");
   type.param("hook", number(default_hook).between(0, 1e6).in("s⁻²").slider(50, 2000),
              "stiffness of the spring from each sub-joint to its place");
@@ -95,6 +125,7 @@ NodeType rubber_joints_node() {
       if (found) contacts = &*found;
     }
     RubberResult rubber = rubber_joints(*motion, settings, contacts, work);
+    tell_of_limbs(motion->skeleton(), rubber.sub_joints, work);
     if (const auto* character = compute.optional_input<Character>("character")) {
       if (compute.wanted("character"))
         compute.output("character",

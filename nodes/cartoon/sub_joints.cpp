@@ -17,6 +17,10 @@ namespace {
 constexpr double sub_link = 0.0425;
 constexpr int most_by_length = 12;
 
+// Standing people are 1.17 to 1.39 times as tall as their longest way from the pelvis to a tip. A rest pose
+// that is folded or lies down is lower.
+constexpr double least_height = 1.15;
+
 std::vector<double> lengths_of(const Motion& motion) {
   const Skeleton& skeleton = motion.skeleton();
   std::vector<double> lengths(skeleton.joints.size());
@@ -27,6 +31,24 @@ std::vector<double> lengths_of(const Motion& motion) {
   for (int j = 1; j < skeleton.size(); ++j)
     lengths[j] = norm(motion.local_offset(j, 0)) * skeleton.above_scale;
   return lengths;
+}
+
+// How tall the body stands: its rest pose's height, or, where that is folded, by its longest way from the
+// first branching joint to a tip.
+double height_of(const Skeleton& skeleton, const std::vector<double>& lengths) {
+  std::vector<int> children(skeleton.joints.size());
+  for (int j = 1; j < skeleton.size(); ++j) ++children[skeleton.joints[j].parent];
+  int trunk = 0;
+  while (trunk + 1 < skeleton.size() && children[trunk] == 1) ++trunk;
+  if (children[trunk] < 2) trunk = 0;
+  std::vector<double> way(skeleton.joints.size());
+  double longest = 0;
+  for (int j = trunk + 1; j < skeleton.size(); ++j) {
+    if (!skeleton.is_below(j, trunk)) continue;
+    way[j] = way[skeleton.joints[j].parent] + lengths[j];
+    longest = std::max(longest, way[j]);
+  }
+  return std::max(rest_height(skeleton), least_height * longest);
 }
 
 // The only child that isn't pruned, or -1.
@@ -45,9 +67,7 @@ std::vector<int> only_children(const Skeleton& skeleton, const std::vector<bool>
 std::vector<int> counts_of(const Motion& motion, const SubJointParams& params, const std::vector<int>& only,
                            const std::vector<double>& lengths, Work& work) {
   const Skeleton& skeleton = motion.skeleton();
-  double height = rest_height(skeleton);
-  if (!(height > 0))
-    for (double length : lengths) height = std::max(height, 4 * length);
+  const double height = height_of(skeleton, lengths);
   std::vector<std::string> patterns;
   for (const auto& [pattern, count] : params.counts) patterns.push_back(pattern);
   const std::vector<int> chosen = most_specific(patterns, skeleton, "sub_joints", work);

@@ -1,14 +1,13 @@
 #include "nodes/style/travel_factor.h"
 
 #include <algorithm>
-#include <functional>
-#include <memory>
 #include <numeric>
 #include <utility>
 
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/motion/encoded_root.h"
 #include "nodes/motion/kinematics.h"
+#include "nodes/quiet_work.h"
 
 namespace kinegraph {
 
@@ -25,23 +24,6 @@ double height_of_low(const WorldMotion& world, const FootPoint& point) {
   std::nth_element(heights.begin(), tenth, heights.end());
   return *tenth + low;
 }
-
-// What is told of its parts is not of the whole's concern.
-class Quiet : public Work {
- public:
-  explicit Quiet(Work& work) : work_(work) {}
-  void check() override { work_.check(); }
-  void progress(double) override { work_.check(); }
-  void report(Diagnostic) override {}
-  void parallel(std::size_t count, std::size_t grain,
-                const std::function<void(std::size_t, std::size_t)>& body) override {
-    work_.parallel(count, grain, body);
-  }
-  std::shared_ptr<void> reserve(std::size_t bytes) override { return work_.reserve(bytes); }
-
- private:
-  Work& work_;
-};
 
 template <class Values>
 Values gathered(const Values& values, const std::vector<std::size_t>& frames) {
@@ -111,7 +93,7 @@ std::vector<std::size_t> frames_shown(const Motion& motion) {
 }
 
 Contacts plants_of(const Motion& motion, Work& work) {
-  Quiet quiet(work);
+  QuietWork quiet(work);
   const std::vector<std::size_t> shown = frames_shown(motion);
   if (shown.size() == motion.frames()) return detect_contacts(motion, {}, quiet);
   Contacts contacts = detect_contacts(in_its_own_time(motion, shown, quiet), {}, quiet);

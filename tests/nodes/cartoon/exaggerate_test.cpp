@@ -256,6 +256,27 @@ TEST(ExaggerateNode, BlendsByAmountRangeAndJoints) {
   EXPECT_EQ(some.rotation(leg)[45], walk.rotation(leg)[45]);
 }
 
+TEST(ExaggerateNode, WarnsOfLinksThatComeOutStretchedOnly) {
+  const Motion run = gait("run", 2);
+  const auto told = [&](const std::string& param, Json value) {
+    NodeInMemory node(exaggerate_node());
+    node.link("motion", run).set("correct", false).set("omega", 12);
+    if (!param.empty()) node.set(param, std::move(value));
+    node.run();
+    std::vector<std::pair<std::string, std::int64_t>> all;
+    for (const Diagnostic& d : node.reported())
+      if (!d.joint.empty()) all.emplace_back(d.joint, d.frame.value_or(-1));
+    return all;
+  };
+  using namespace testing;
+  ASSERT_THAT(told("", {}), Contains(Pair(Not("LeftForeArm"), Not(AllOf(Ge(30), Lt(60))))));
+  EXPECT_THAT(told("amount", 0), IsEmpty());
+  EXPECT_THAT(told("fade", 0), Not(IsEmpty()));
+  EXPECT_THAT(told("joints", "LeftForeArm"), Each(Pair("LeftForeArm", _)));
+  EXPECT_THAT(told("range", Json(Json::Array{Json(30), Json(60)})),
+              AllOf(Not(IsEmpty()), Each(Pair(_, AllOf(Ge(0), Lt(100))))));
+}
+
 TEST(ExaggerateNode, TellsWhatItDidAndRefusesWhatCannotBe) {
   const Motion run = gait("run", 2);
   NodeInMemory node(exaggerate_node());

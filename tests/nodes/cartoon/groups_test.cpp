@@ -74,6 +74,34 @@ TEST(Groups, OfAMixamoLikeSkeletonLeaveOutFingersAndToeEnds) {
                           "mixamorig:LeftUpLeg mixamorig:LeftLeg mixamorig:LeftFoot mixamorig:LeftToeBase"));
 }
 
+TEST(Groups, PassOverBonesThatShareTwistAndSkin) {
+  KINEGRAPH_NEEDS_MOCAP();
+  // Character Creator's: twist and share bones beside thighs, calves and arms, five toes below a foot.
+  const std::string p = "CC_Base_";
+  EXPECT_THAT(
+      groups_as_text(cartoon_clip("cmu/bvh_other/007_01_iclone.bvh", 2).skeleton()),
+      testing::IsSupersetOf({p + "L_Thigh " + p + "L_Calf " + p + "L_Foot " + p + "L_ToeBase",
+                             p + "R_Thigh " + p + "R_Calf " + p + "R_Foot " + p + "R_ToeBase",
+                             p + "L_Clavicle " + p + "L_Upperarm " + p + "L_Forearm " + p + "L_Hand",
+                             p + "R_Clavicle " + p + "R_Upperarm " + p + "R_Forearm " + p + "R_Hand"}));
+}
+
+TEST(Groups, LeaveOutMiddleFingersAndSingleToes) {
+  KINEGRAPH_NEEDS_MOCAP();
+  EXPECT_THAT(
+      groups_as_text(cartoon_clip("cmu/bvh_daz/10_01.bvh", 2).skeleton()),
+      ElementsAre("leftEye", "rightEye", "rCollar rShldr rForeArm rHand", "lCollar lShldr lForeArm lHand",
+                  "rButtock rThigh rShin rFoot", "lButtock lThigh lShin lFoot"));
+  EXPECT_THAT(
+      groups_as_text(cartoon_clip("fair/dab.bvh", 2).skeleton()),
+      testing::IsSupersetOf({"Neck Head", "RightShoulder RightArm RightForeArm RightHand RightHandEnd",
+                             "LeftUpLeg LeftLeg LeftFoot LeftToeBase"}));
+  EXPECT_THAT(groups_as_text(cartoon_clip("odd/makehuman_tpose.bvh", 2).skeleton()),
+              testing::IsSupersetOf(
+                  {"pelvis.L upperleg01.L upperleg02.L lowerleg01.L lowerleg02.L foot.L",
+                   "clavicle.R shoulder01.R upperarm01.R upperarm02.R lowerarm01.R lowerarm02.R wrist.R"}));
+}
+
 TEST(Groups, OfASingleChainAreAllOfIt) {
   EXPECT_THAT(groups_as_text(tree({{"a", ""}, {"b", "a"}, {"c", "b"}})), ElementsAre("a b c"));
   EXPECT_THAT(groups_as_text(tree({{"alone", ""}})), ElementsAre("alone"));
@@ -88,6 +116,14 @@ TEST(Groups, DoNotTakeMiddlesAndStringsForFingers) {
   const Skeleton skeleton =
       tree({{"SpineMiddleBody", ""}, {"Spring", "SpineMiddleBody"}, {"Little", "Spring"}});
   EXPECT_THAT(small_ends(skeleton), ElementsAre(false, false, true));
+  // Nor a spine's middle, a neck's twist bones that lead to the head, or an only toe joint.
+  EXPECT_THAT(small_ends(tree({{"Spine_Mid1", ""},
+                               {"NeckTwist01", "Spine_Mid1"},
+                               {"NeckTwist02", "NeckTwist01"},
+                               {"Head", "NeckTwist02"},
+                               {"Foot", "Spine_Mid1"},
+                               {"Toe1", "Foot"}})),
+              testing::Each(false));
 }
 
 TEST(Groups, CanBeNamed) {

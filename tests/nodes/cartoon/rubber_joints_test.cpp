@@ -45,6 +45,23 @@ TEST(SubJoints, AreFiftyEightOnTheSkeletonOf23) {
                           Pair("RightHand", 1), Pair("RightHandIndex1", 1)));
 }
 
+TEST(SubJoints, AreAsManyOnARestPoseThatIsFolded) {
+  KINEGRAPH_NEEDS_MOCAP();
+  Alone work;
+  const auto thigh = [&](const char* file, const char* joint) {
+    const Motion clip = cartoon_clip(file, 2);
+    const SubJoints sub = lay_sub_joints(clip, {}, work);
+    EXPECT_LT(sub.all.size(), clip.skeleton().joints.size() + 70) << file;
+    return sub.all[sub.first[clip.skeleton().find(joint)]].count;
+  };
+  EXPECT_EQ(thigh("cmu/bvh/08_01.bvh", "LeftUpLeg"), 7);
+  EXPECT_EQ(thigh("cmu/bvh_daz/10_01.bvh", "lThigh"), 6);
+  EXPECT_EQ(thigh("fair/dab.bvh", "LeftUpLeg"), 7);
+  EXPECT_EQ(thigh("cmu/bvh_other/007_01_iclone.bvh", "CC_Base_L_Thigh"), 7);
+  EXPECT_EQ(thigh("bandai/dataset-1_walk_normal_001.bvh", "UpperLeg_L"), 8);
+  EXPECT_EQ(thigh("odd/makehuman_tpose.bvh", "lowerleg01.L"), 3);
+}
+
 TEST(SubJoints, TakeCountsByPattern) {
   Alone work;
   const Motion walk = gait("walk", 1);
@@ -304,6 +321,28 @@ TEST(RubberJoints, GoThroughABvhFileAndBack) {
   for (int j = 0; j < rubber.joints(); ++j)
     for (std::size_t t = 0; t < rubber.frames(); ++t)
       ASSERT_LT(norm(a.position(j)[t] - b.position(j)[t]), 1e-6);
+}
+
+TEST(RubberJointsNode, TellsOfItsLimbsAndOfFeetThatNeverRest) {
+  const auto told = [](const Motion& motion) {
+    NodeInMemory node(rubber_joints_node());
+    node.link("motion", motion).run();
+    return node.reported();
+  };
+  const Diagnostics walks = told(gait("walk", 2));
+  ASSERT_EQ(walks.size(), 1u);
+  EXPECT_EQ(walks[0].code, "sub-joints");
+  EXPECT_THAT(walks[0].message,
+              testing::AllOf(testing::HasSubstr("23 joints"), testing::HasSubstr("58 sub-joints"),
+                             testing::HasSubstr("LeftUpLeg…LeftToeBase 15")));
+  Motion flight = gait("run", 2);
+  for (std::size_t t = 0; t < flight.frames(); ++t)
+    flight.translation(0).set(t,
+                              flight.translation(0)[t] + Vec3{0, std::sin(0.9 * static_cast<double>(t)), 0});
+  const Diagnostics flies = told(flight);
+  ASSERT_EQ(flies.size(), 2u);
+  EXPECT_EQ(flies[0].code, "no-contacts");
+  EXPECT_THAT(flies[0].hint, testing::HasSubstr("before"));
 }
 
 TEST(RubberJointsNode, FindsContactsAndRefusesOthers) {
