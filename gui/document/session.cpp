@@ -16,6 +16,7 @@ namespace kinegraph {
 namespace {
 
 constexpr int autosave_after_ms = 2000;
+constexpr auto aside = ".found";  // after an autosave's name: it is an ended session's
 
 bool only_for_the_eye(const Edit& edit) {
   for (const Change& change : edit.changes) {
@@ -37,6 +38,13 @@ Diagnostics unreadable(const QString& path, const QString& why) {
   return {error("unreadable-file", "can't be read: " + why.toStdString())
               .in_file(path.toStdString())
               .hinting("check that the file is there and may be read")};
+}
+
+// An autosave that is newer than its graph.
+bool is_unsaved_work(const QString& autosave, const QString& graph) {
+  const QFileInfo file(autosave);
+  if (!file.exists() || file.size() == 0) return false;
+  return graph.isEmpty() || file.lastModified() >= QFileInfo(graph).lastModified();
 }
 
 }  // namespace
@@ -136,21 +144,33 @@ QString Session::autosave_path() const {
 }
 
 bool Session::autosave_found() const {
-  const QFileInfo autosave(autosave_path());
-  if (!autosave.exists() || autosave.size() == 0) return false;
-  return page_->path.isEmpty() || autosave.lastModified() >= QFileInfo(page_->path).lastModified();
+  return is_unsaved_work(autosave_path(), path()) || is_unsaved_work(autosave_path() + aside, path());
+}
+
+void Session::keep_found() {
+  const QString fresh = autosave_path();
+  page_->found = fresh + aside;
+  if (!is_unsaved_work(fresh, path())) return;
+  QFile::remove(page_->found);
+  QFile::rename(fresh, page_->found);
 }
 
 Diagnostics Session::recover() {
-  QFile file(autosave_path());
+  QFile file(page_->found);
   if (!file.open(QIODevice::ReadOnly)) return unreadable(file.fileName(), file.errorString());
   ReadResult found = read_document(file.readAll().toStdString(), file.fileName().toStdString(), registry_);
   if (has_error(found.problems)) return found.problems;
   perform([&](const Document& document, const Registry&) {
     return edit_between(document, found.document, "Take up unsaved work");
   });
-  if (!is_modified()) discard_autosave();
+  // Before what was found goes, it has to be kept as this session's own work.
+  if (!is_modified() || write_autosave()) discard_found();
   return found.problems;
+}
+
+void Session::discard_found() {
+  if (!page_->found.isEmpty()) QFile::remove(page_->found);
+  page_->found.clear();
 }
 
 void Session::discard_autosave() {
@@ -158,12 +178,13 @@ void Session::discard_autosave() {
   QFile::remove(autosave_path());
 }
 
-void Session::write_autosave() {
-  if (!is_modified() || is_read_only()) return;
+bool Session::write_autosave() {
+  if (!is_modified() || is_read_only()) return false;
   try {
     write_file_atomically(autosave_path().toStdString(), text());
+    return true;
   } catch (const Failure&) {
-    // The next edit tries again; a full disk must not stop anyone from working.
+    return false;  // the next edit tries again; a full disk must not stop anyone from working
   }
 }
 
@@ -218,10 +239,10 @@ void Session::after(const Edit& edit) {
   const bool meaning = !only_for_the_eye(edit);
   keep_selection_valid();
   if (meaning) check_meaning();
-  if (is_modified())
-    autosave_.start();
-  else
+  if (!is_modified())
     discard_autosave();
+  else if (!autosave_.isActive())  // not put off by each edit: work without a pause is kept too
+    autosave_.start();
   emit changed();
   emit file_changed();
   if (meaning) emit meaning_changed();

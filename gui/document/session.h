@@ -70,11 +70,15 @@ class Session : public QObject {
   QStringList files_inside() const;
   void reopen_inside();
 
-  // Autosave: beside the file as .NAME.kg.json.autosave, in the state folder where that can't be written. An
-  // autosave newer than the file is offered by autosave_found(); recover() takes it up as one undo step.
+  // Autosave: beside the file as .NAME.kg.json.autosave, in the state folder where that can't be written; at
+  // most two seconds behind the work. One newer than the file is what an ended session left: autosave_found()
+  // tells of it, keep_found() puts it aside so that this session's own can't take its place, recover() takes
+  // it up as one undo step, discard_found() throws it away.
   QString autosave_path() const;
   bool autosave_found() const;
+  void keep_found();
   Diagnostics recover();
+  void discard_found();
   void discard_autosave();
 
   // Editing. `perform` runs a function that makes an Edit (graph/edit.h), applies it and keeps it for undo; a
@@ -111,6 +115,7 @@ class Session : public QObject {
     History history;
     QString path;
     std::string text_on_disk;
+    QString found;  // the autosave of an ended session, put aside; empty where there is none
     Diagnostics problems;
     std::set<std::string> selected;
     std::string current;
@@ -122,7 +127,7 @@ class Session : public QObject {
   void open_inside(Document& document, const QString& path) const;
   std::string text_inside(const std::string& path) const;
   void keep_selection_valid();
-  void write_autosave();
+  bool write_autosave();
 
   const Registry& registry_;
   std::vector<std::unique_ptr<Page>> pages_;

@@ -71,6 +71,7 @@ bool MainWindow::open(const QString& path) {
 
 void MainWindow::offer_autosave() {
   if (!session_.autosave_found() || session_.is_read_only()) return;
+  session_.keep_found();
   notice_->say(tr("Work on %1 that was never saved was found, from a session that ended unexpectedly.")
                    .arg(session_.title()),
                {{tr("Take it up"),
@@ -78,7 +79,7 @@ void MainWindow::offer_autosave() {
                    tell(session_.recover(), tr("The work that was found can't be read."));
                    canvas_->frame_all();
                  }},
-                {tr("Throw it away"), [this] { session_.discard_autosave(); }}});
+                {tr("Throw it away"), [this] { session_.discard_found(); }}});
 }
 
 void MainWindow::new_graph() {

@@ -310,7 +310,7 @@ void troubles(const Theme& theme, const QDir& into, const QString& end) {
     second.window.open(path);
     second.wait();
     second.take("autosave" + end);
-    second.session().discard_autosave();
+    second.session().discard_found();
   }
   {
     Shot shot(theme, into);
