@@ -31,8 +31,10 @@ struct DetectContactsParams {
 // nothing (info "no-contacts").
 Contacts detect_contacts(const Motion& motion, const DetectContactsParams& params, Work& work);
 
+// Whether a path is seen from ground that may still slide under it by some 0.15 m/s.
+enum class Ground { firm, sliding };
 // Of one point's path, metres: one flag a frame.
 std::vector<bool> planted_frames(const std::vector<Vec3>& path, double fps,
-                                 const DetectContactsParams& params);
+                                 const DetectContactsParams& params, Ground ground);
 
 }  // namespace kinegraph

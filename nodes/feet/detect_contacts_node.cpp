@@ -26,7 +26,6 @@ NodeType detect_contacts_node() {
   const DetectContactsParams defaults;
   NodeType type;
   type.name = "DetectContacts";
-  type.code_version = 2;
   type.category = "feet";
   type.help = "Finds when heels and balls of the feet are planted, also where they slide a little.";
   type.source = "Kovar, Schreiner, Gleicher 2002, section 3";
@@ -49,7 +48,7 @@ NodeType detect_contacts_node() {
                           range().as("range", "frames"),
                           boolean(true).as("planted", "planted there or not").optional(Json(true))})),
              "Corrections by hand, applied in order over what was found.");
-  type.code_version = 2;
+  type.code_version = 3;
   type.compute = [](Compute& node) {
     const auto& motion = node.input<Motion>("motion");
     node.output("contacts", detect_contacts(motion, detect_contacts_params(node.params()), node.work()));

@@ -7,8 +7,12 @@
 namespace kinegraph {
 namespace {
 
-// A plant may slide this fast as a whole; drift of 0.15 m/s on top of what real feet do in stance.
-constexpr double largest_slide = 0.33;  // m/s
+// How fast a plant may slide as a whole, and by how much any of its frames may be faster than `speed`. Real
+// feet slide a little in stance; a ground that slides by 0.15 m/s comes on top.
+struct SlideLimits {
+  double slide, over_speed;  // m/s
+};
+constexpr SlideLimits on_firm{0.22, 0.12}, on_sliding{0.33, 0.22};
 // A plant has frames whose speed is under this part of the limit.
 constexpr double core = 0.6;
 
@@ -65,7 +69,7 @@ std::vector<std::size_t> steady_frames(const std::vector<Vec3>& velocity, Run ru
 }
 
 // Marks the stretches of a run that move with `slide`.
-void mark_even(const std::vector<Vec3>& velocity, Run run, Vec3 slide, double speed,
+void mark_even(const std::vector<Vec3>& velocity, Run run, Vec3 slide, double speed, double largest_slide,
                std::vector<bool>& planted) {
   if (norm(slide) > largest_slide) return;
   for (std::size_t t = run.start; t < run.end; ++t) {
@@ -103,7 +107,7 @@ void trim_ends(const std::vector<Vec3>& path, const std::vector<Vec3>& velocity,
 }  // namespace
 
 std::vector<bool> planted_frames(const std::vector<Vec3>& path, double fps,
-                                 const DetectContactsParams& params) {
+                                 const DetectContactsParams& params, Ground ground) {
   std::vector<bool> planted(path.size(), false);
   if (path.size() < 2) return planted;
   const std::vector<Vec3> velocity = velocities(path, fps);
@@ -111,16 +115,18 @@ std::vector<bool> planted_frames(const std::vector<Vec3>& path, double fps,
   for (const Vec3& p : path) heights.push_back(p.y);
   const double ceiling = quantile(heights, 0.1) + params.height;
 
+  const SlideLimits limits = ground == Ground::firm ? on_firm : on_sliding;
   std::vector<bool> maybe(path.size());
   for (std::size_t t = 0; t < path.size(); ++t) {
     maybe[t] = path[t].y < ceiling && std::abs(velocity[t].y) < 0.96 * params.speed &&
-               horizontal(velocity[t]) < params.speed + 0.22;
+               horizontal(velocity[t]) < params.speed + limits.over_speed;
   }
   for (const Run& run : runs_of(maybe)) {
-    mark_even(velocity, run, {}, params.speed, planted);
-    mark_even(velocity, run, median_slide(velocity, run), params.speed, planted);
+    mark_even(velocity, run, {}, params.speed, limits.slide, planted);
+    mark_even(velocity, run, median_slide(velocity, run), params.speed, limits.slide, planted);
     for (std::size_t t : steady_frames(velocity, run, fps))
-      if (!planted[t]) mark_even(velocity, run, {velocity[t].x, 0, velocity[t].z}, params.speed, planted);
+      if (!planted[t])
+        mark_even(velocity, run, {velocity[t].x, 0, velocity[t].z}, params.speed, limits.slide, planted);
   }
   const auto gap = static_cast<std::size_t>(0.04 * fps + 0.5);
   std::vector<bool> open = planted;

@@ -59,6 +59,12 @@ inline std::vector<std::string> walks_and_runs() {
           "cmu/bvh_other/02_01_tmoco.bvh"};
 }
 
+inline bool runs(const std::string& clip) {
+  for (const char* run : {"09_06", "141_01", "16_45", "02_03"})
+    if (clip.find(run) != clip.npos) return true;
+  return false;
+}
+
 // The motion on a ground that slides under it, m/s; along the path and to its left.
 inline Motion drifted(Motion motion, double along, double across) {
   const Vec3Track root = motion.translation(0);
