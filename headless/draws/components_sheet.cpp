@@ -17,7 +17,6 @@
 namespace kinegraph {
 namespace {
 
-constexpr int moments = 12;
 constexpr double width = 1200, figure_height = 104, signal_height = 44, inset = 40;
 
 double left_edge() {
@@ -32,7 +31,26 @@ struct Moment {
   std::size_t frame, segment, own_frame;
   double x;  // on the page
 };
+// How many stand in the strip: about a dozen, and so many that the poses of a gait don't all fall on the same
+// phases of its cycle or of half of it, as the strip would seem to stand still then.
+int count_of_moments(const Components& components) {
+  constexpr int usual = 12, least = 10, most = 14;
+  for (std::size_t i = 0; i < components.count(); ++i) {  // by variance: the first that swings
+    const auto cadence = cadence_of(components, i);
+    if (!cadence) continue;
+    const auto off_phase = [&](int count) {
+      const double halves = 2 * *cadence * static_cast<double>(components.frames()) / components.fps / count;
+      return std::fabs(halves - std::round(halves));
+    };
+    int best = usual;
+    for (int count = least; count <= most; ++count)
+      if (off_phase(count) > 1.2 * off_phase(best)) best = count;
+    return best;
+  }
+  return usual;
+}
 std::vector<Moment> moments_of(const Components& components) {
+  const int moments = count_of_moments(components);
   std::vector<Moment> out;
   for (int i = 0; i < moments; ++i) {
     const double part = (i + 0.5) / moments;
@@ -225,7 +243,7 @@ class Painter {
 
   // Points at the moments, `times` as far from their mean as they are, with a line from there.
   void dots(const Points& points, std::size_t segment, double times, double floor) const {
-    const double room = (right_edge() - left_edge()) / moments - 8;
+    const double room = (right_edge() - left_edge()) / static_cast<double>(moments_.size()) - 8;
     const double scale =
         std::min((figure_height - 10) / std::max(cloud_.high.y - cloud_.low.y, 1e-6),
                  room / std::max({cloud_.high.x - cloud_.low.x, 0.4 * (cloud_.high.z - cloud_.low.z), 1e-6}));

@@ -35,12 +35,15 @@ std::vector<std::shared_ptr<const T>> all_as(std::span<const ValuePtr> values) {
   return out;
 }
 
-// Inputs after the first that are other skeletons: rest poses that differ are told.
-void compare_skeletons(const ChannelSpace& space, const std::vector<std::shared_ptr<const Motion>>& motions,
+// Inputs after the first that are other skeletons: rest poses that differ are told, where rotations count.
+// `given`: as they came, before their roots were moved.
+void compare_skeletons(const ChannelSpace& space, const std::vector<std::shared_ptr<const Motion>>& given,
                        Work& work) {
-  for (const auto& motion : motions)
-    if (motion->shared_skeleton() != space.skeleton)
-      warn_about_partners(motion->skeleton(), *space.skeleton, joints_of(space, motion->skeleton()), work);
+  if (space.representation == Representation::points) return;
+  const Skeleton& first = given.front()->skeleton();
+  for (const auto& motion : given)
+    if (motion->shared_skeleton() != given.front()->shared_skeleton())
+      warn_about_partners(motion->skeleton(), first, partners(motion->skeleton(), first, space.map), work);
 }
 
 void decompose_inputs(Compute& node) {
@@ -53,6 +56,7 @@ void decompose_inputs(Compute& node) {
                       .at_port("motions")
                       .hinting("link clips of one kind"));
   if (!motions.empty()) {
+    const auto given = motions;
     for (auto& motion : motions) {
       check_same_rate(motions.front()->fps(), motion->fps(), "motions", "motions");
       motion = with_moving_root(motion, node.work());
@@ -61,7 +65,7 @@ void decompose_inputs(Compute& node) {
         chosen_joints(params.text("joints"), motions.front()->skeleton(), "joints", node.work());
     ChannelSpace space = space_of_motions(representation_from(params.text("representation")), motions, chosen,
                                           params.boolean("heading"), params.texts("map"), node.work());
-    compare_skeletons(space, motions, node.work());
+    compare_skeletons(space, given, node.work());
     node.output("components",
                 components_of_motions(std::move(space), motions, ica_params(params), node.work()));
     return;

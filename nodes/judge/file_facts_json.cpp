@@ -1,4 +1,5 @@
 #include "nodes/files/json_fields.h"
+#include "nodes/judge/analysis_facts.h"
 #include "nodes/judge/file_facts.h"
 #include "nodes/motion/elementary.h"
 
@@ -110,6 +111,8 @@ Json facts_json(const MotionFile& file, const FileFacts& facts, const std::strin
   }
   if (motion) put_motion(out, *motion, *facts.motion);
   if (!motion && points) put_points(out, *points, *facts.points);
+  for (const FileContent& content : file.contents)
+    for (auto& [name, value] : analysis_json(*content.value)) out[name] = value;
   if (facts.gltf) out["gltf"] = json_of(*facts.gltf);
   for (const Break& one : facts.breaks)
     breaks.push_back(Json::Object{

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nodes/files/length_unit.h"
+#include "nodes/judge/analysis_facts.h"
 #include "nodes/judge/file_facts.h"
 #include "nodes/judge/other_programs.h"
 #include "nodes/motion/elementary.h"
@@ -150,6 +151,8 @@ std::string facts_text(const MotionFile& file, const FileFacts& facts, const std
     out += points_text(*points, *facts.points);
     names = points->labels;
   }
+  for (const FileContent& content : file.contents)
+    for (const auto& [label, text] : analysis_lines(*content.value)) out += line(label, text);
   if (facts.gltf) out += gltf_text(*facts.gltf, facts.format == "gltf");
   if (motion || points) out += breaks_text(facts, names);
   if (motion) out += '\n' + skeleton_tree(motion->skeleton());

@@ -22,16 +22,32 @@ struct Job {
   int carries;  // the component that is given, both ways
   const char* more;
   double least;  // part of the way that the torso's pitch has to go
+  double lift;   // m, by which b is lifted before Footskate: a's legs are straighter than b's crouch
+  double below;  // m, how far toes may swing through the lowest place where they stand in the clip
   friend void PrintTo(const Job& job, std::ostream* out) { *out << job.a << " with " << job.b; }
 };
 // Components are in order of their share of variance. For walk and sneak one carries the whole hunch. A run's
 // own bobbing is of the same kind, so that two share it there.
 const Job jobs[] = {
-    {"16_31", "17_03", 1, "", 0.8},
-    {"07_05", "17_03", 1, "", 0.8},
-    {"16_45", "17_03", 1, run_plants, 0.35},
-    {"16_45", "16_31", 2, run_plants, 0.7},
+    {"16_31", "17_03", 1, "", 0.8, 0.18, 0.02},
+    {"07_05", "17_03", 1, "", 0.8, 0.125, 0.02},
+    {"16_45", "17_03", 1, run_plants, 0.35, 0.056, 0.08},
+    {"16_45", "16_31", 2, run_plants, 0.7, 0, 0.07},
 };
+
+// Keys of MotionWarp that lift a clip as a whole: its root at both ends, `lift` higher.
+std::string lifted(const std::string& clip, double lift) {
+  if (lift == 0 || !std::filesystem::exists(mocap("README.md"))) return "[]";
+  FileStore files;
+  Alone work;
+  const MotionFile file = read_motion_file(mocap("cmu/asfamc/" + clip + ".amc"), {}, files, work);
+  const auto root = positions_of(*file.motion())[0];
+  const auto key = [&](std::size_t frame) {
+    return fmt::format(R"({{"frame":{},"joint":"root","position":[{:.6f},{:.6f},{:.6f}]}})", frame,
+                       root[frame].x, root[frame].y + lift, root[frame].z);
+  };
+  return "[" + key(0) + "," + key(root.size() - 1) + "]";
+}
 
 class ComponentJob : public testing::TestWithParam<Job> {
  protected:
@@ -41,10 +57,10 @@ class ComponentJob : public testing::TestWithParam<Job> {
     const auto edits = [&](int from, int to) {
       return fmt::format(R"([{{"op":"transfer","components":{},"from":{},"to":{}}}])", job.carries, from, to);
     };
-    out_.emplace(
-        "tests/component_job/both_ways.kg.json", fmt::format("components_{}_{}", job.a, job.b),
-        fmt::format("--var a={} --var b={} --set 'a_restyled.edits={}' --set 'b_restyled.edits={}' {}", job.a,
-                    job.b, edits(1, 0), edits(0, 1), job.more));
+    out_.emplace("tests/component_job/both_ways.kg.json", fmt::format("components_{}_{}", job.a, job.b),
+                 fmt::format("--var a={} --var b={} --set 'a_restyled.edits={}' --set 'b_restyled.edits={}' "
+                             "--set 'b_lift.keys={}' {}",
+                             job.a, job.b, edits(1, 0), edits(0, 1), lifted(job.b, job.lift), job.more));
     ASSERT_TRUE(out_->ran());
     for (std::string side : {"a", "b"}) {
       source_.push_back(out_->motion(side + ".bvh"));
@@ -93,6 +109,23 @@ TEST_P(ComponentJob, HoldsPlantedFeet) {
     for (const FootPoint& point : plants_[side]->points) plants += runs_of(point.planted).size();
     EXPECT_GE(plants, 4u) << "or nothing is held";
     EXPECT_LT(farthest_from_plants(*feet_[side], *plants_[side]), 1e-3) << "m, side " << side;
+  }
+}
+
+// Free feet don't swing through the floor.
+TEST_P(ComponentJob, SwingsFeetAboveTheFloor) {
+  const auto lowest = [](const Motion& motion) {
+    const auto places = positions_of(motion);
+    double low = 1e9;
+    for (const char* toes : {"ltoes", "rtoes"})
+      for (Vec3 at : places[static_cast<std::size_t>(motion.skeleton().find(toes))])
+        low = std::min(low, at.y);
+    return low;
+  };
+  for (std::size_t side : {0, 1}) {
+    const double own = lowest(*source_[side]), now = lowest(*feet_[side]);
+    EXPECT_GT(now, own - GetParam().below) << "side " << side;
+    RecordProperty(fmt::format("toes_{}", side), fmt::format("{:.3f} {:.3f}", own, now));
   }
 }
 

@@ -35,6 +35,11 @@ TEST(Explosion, RisesHigherAfterOneComponentIsScaled) {
   EXPECT_GT(height_at_end(*higher, false), 1.125 * height_at_end(*burst, false));
   EXPECT_GT(height_at_end(*higher, true), 1.125 * height_at_end(*burst, true));
   EXPECT_NEAR(width_at_end(*higher), width_at_end(*burst), 0.25 * width_at_end(*burst));
+  // And nothing goes through the ground.
+  double lowest = 0;
+  for (int i = 0; i < static_cast<int>(higher->labels.size()); ++i)
+    for (std::size_t t = 0; t < higher->frames; ++t) lowest = std::min(lowest, higher->track(i)[t].y);
+  EXPECT_GT(lowest, -0.005);
   RecordProperty("mean",
                  fmt::format("{:.2f} {:.2f}", height_at_end(*burst, false), height_at_end(*higher, false)));
   RecordProperty("top",

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "nodes/components/components.h"
+#include "nodes/motion/metrics.h"
 #include "tests/mocap.h"
 #include "tests/nodes/files/plain_files.h"
 
@@ -45,9 +47,9 @@ TEST(FileFacts, OfAWalkAreWhatAPersonAsks) {
   EXPECT_GE(runs_of(walk.facts.motion->contacts->points[0].planted).size(), 2u);
   for (const char* line :
        {"it: bvh, motion", "frames    278 at 120 a second, 2.32 s", "unit      cmu (0.0564444 m), found by",
-        "up        Y", "height    1.38 m in the rest pose", "legs 0.799 m", "skeleton  31 joints, 7 End Sites",
-        "channels  3 Zrotation Yrotation Xrotation: 30 joints", "feet      LeftFoot heel", "flip of RThumb",
-        "\n    LeftUpLeg  "})
+        "up        Y", "height    1.38 m in the rest pose", "legs 0.799 m",
+        "skeleton  31 joints, 7 End Sites", "channels  3 Zrotation Yrotation Xrotation: 30 joints",
+        "feet      LeftFoot heel", "flip of RThumb", "\n    LeftUpLeg  "})
     EXPECT_THAT(walk.text, HasSubstr(line));
   for (const char* key :
        {"frames", "fps", "seconds", "unit", "unit_name", "unit_from", "up", "rest_height", "leg_length",
@@ -97,6 +99,48 @@ TEST(FileFacts, SayWhereTheFigureLiesAlongZ) {
   KINEGRAPH_NEEDS_MOCAP();
   EXPECT_THAT(codes(told_of("fair/dab.bvh").facts), HasSubstr("up-axis"));
   EXPECT_EQ(codes(told_of("cmu/bvh_daz/49_06.bvh").facts).find("up-axis"), std::string::npos);
+}
+
+TEST(FileFacts, OfComponentsTellWhatEachMoves) {
+  Components c;
+  c.space.of_motions = false;
+  c.space.labels = {"brow", "jaw"};
+  c.fps = 50;
+  c.mean.assign(6, 0);
+  c.mixing = Rows(6, 2);
+  c.mixing(1, 0) = 2;
+  c.mixing(4, 1) = 1;
+  c.signals = Rows(2, 100);
+  c.unmixing = Rows(2, 6);
+  for (std::size_t t = 0; t < 100; ++t) c.signals(0, t) = t % 2 ? 1 : -1;
+  c.shares = {0.7, 0.2};
+  c.unique = {true, false};
+  const auto clip = std::make_shared<const Points>(c.space.labels, 50, 100);
+  c.segments.push_back({0, 100, nullptr, clip, {}});
+  MotionFile file;
+  file.format = "json";
+  file.contents.push_back({"components", std::make_shared<const Components>(c)});
+  FileFacts facts;
+  facts.format = "json";
+  facts.ports = "components";
+  const std::string text = facts_text(file, facts, "it");
+  for (const char* line :
+       {"components 2 independent of points, 90.0 % of the variance", "u1        70.0 % of the variance",
+        "moves brow", "not unique", "clip 0    100 frames at 50 a second, 2 s", "points    2: brow, jaw"})
+    EXPECT_THAT(text, HasSubstr(line));
+  const Json json = facts_json(file, facts, "it");
+  EXPECT_EQ(json.find("components")->number(), 2);
+  EXPECT_EQ(json.find("shares")->array()[1].number(), 0.2);
+}
+
+TEST(FileFacts, OfMetricsListTheNumbers) {
+  Metrics metrics;
+  metrics.all = {{"skate", 0.25, "cm/s"}, {"plants", {}, ""}};
+  MotionFile file;
+  file.contents.push_back({"metrics", std::make_shared<const Metrics>(metrics)});
+  const std::string text = facts_text(file, {}, "it");
+  EXPECT_THAT(text, HasSubstr("skate 0.25 cm/s"));
+  EXPECT_THAT(text, HasSubstr("plants unknown"));
 }
 
 }  // namespace
