@@ -35,15 +35,20 @@ std::vector<std::shared_ptr<const T>> all_as(std::span<const ValuePtr> values) {
   return out;
 }
 
-// Inputs after the first that are other skeletons: rest poses that differ are told, where rotations count.
-// `given`: as they came, before their roots were moved.
+// Inputs after the first that are other skeletons: rest poses that differ are told, where rotations count. A
+// joint that translates has no place at rest. `given`: as they came, before their roots were moved.
 void compare_skeletons(const ChannelSpace& space, const std::vector<std::shared_ptr<const Motion>>& given,
                        Work& work) {
   if (space.representation == Representation::points) return;
   const Skeleton& first = given.front()->skeleton();
-  for (const auto& motion : given)
-    if (motion->shared_skeleton() != given.front()->shared_skeleton())
-      warn_about_partners(motion->skeleton(), first, partners(motion->skeleton(), first, space.map), work);
+  for (const auto& motion : given) {
+    if (motion->shared_skeleton() == given.front()->shared_skeleton()) continue;
+    const auto partner = partners(motion->skeleton(), first, space.map);
+    std::vector<bool> still;
+    for (int j = 0; j < first.size(); ++j)
+      still.push_back(!given.front()->translates(j) && (partner[j] < 0 || !motion->translates(partner[j])));
+    warn_about_partners(motion->skeleton(), first, partner, work, &still);
+  }
 }
 
 void decompose_inputs(Compute& node) {

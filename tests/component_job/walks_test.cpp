@@ -1,10 +1,12 @@
 // What the components of a normal, an old and a proud walk mean [Cao §4.3, Fig. 2].
+#include <algorithm>
 #include <cmath>
 
 #include "nodes/components/components.h"
 #include "nodes/motion/kinematics.h"
 #include "nodes/motion/metrics.h"
 #include "nodes/motion/moving_root.h"
+#include "nodes/motion/points.h"
 #include "tests/main_job/exported.h"
 
 namespace kinegraph {
@@ -70,6 +72,31 @@ TEST(Walks, HaveComponentsOfLegsOfArmsAndOfTheStoop) {
   ASSERT_TRUE(normal && old && hunched);
   EXPECT_GT(stoop(*hunched), stoop(*normal) + 0.5 * (stoop(*old) - stoop(*normal)));
   RecordProperty("stoop", fmt::format("{:.3f} {:.3f} {:.3f}", stoop(*normal), stoop(*old), stoop(*hunched)));
+  // Every link points where the components say; where several hang on one joint (chest, hips), that turns by
+  // the best rotation of them.
+  const auto loose = files.read<Points>("loose.csv");
+  const WorldMotion bones = world_motion(*hunched);
+  double single = 0, several = 0;
+  for (int j = 1; j < hunched->joints(); ++j) {
+    const Skeleton& skeleton = hunched->skeleton();
+    const int parent = skeleton.joints[static_cast<std::size_t>(j)].parent;
+    const auto label = [&](int joint) {
+      const auto& name = skeleton.joints[static_cast<std::size_t>(joint)].name;
+      return static_cast<int>(std::find(loose->labels.begin(), loose->labels.end(), name) -
+                              loose->labels.begin());
+    };
+    if (skeleton.link_length(j) < 1e-6 || parent == 0) continue;
+    const auto links = skeleton.children(parent).size();
+    for (std::size_t t = 0; t < hunched->frames(); ++t) {
+      const Vec3 bone = bones.position(j)[t] - bones.position(parent)[t],
+                 said = loose->track(label(j))[t] - loose->track(label(parent))[t];
+      const double off = std::atan2(norm(cross(bone, said)), dot(bone, said)) * 180 / M_PI;
+      (links > 1 ? several : single) = std::max(links > 1 ? several : single, off);
+    }
+  }
+  EXPECT_LT(single, 0.01) << "degrees";
+  EXPECT_LT(several, 1.5) << "degrees";
+  RecordProperty("several", fmt::format("{:.2f}", several));
   // On the path of the normal walk.
   const WorldMotion was = world_motion(*normal), is = world_motion(*hunched);
   const int hips = normal->skeleton().find("Hips");
