@@ -10,6 +10,7 @@
 #include "nodes/node_params.h"
 #include "nodes/time/retarget_links.h"
 #include "nodes/time/retarget_root.h"
+#include "nodes/time/retarget_soles.h"
 
 namespace kinegraph {
 
@@ -152,19 +153,18 @@ void warn_not_upright(const StandingPose& pose, const char* port, Work& work) {
 }
 
 void tell_shapes(const std::vector<LinkPlan>& plans, const Skeleton& skeleton, Work& work) {
+  constexpr double alike = 5 / degrees_per_radian;
   std::vector<std::string> names;
-  double largest = 0;
-  for (std::size_t j = 0; j < plans.size(); ++j) {
-    if (plans[j].shape == 0) continue;
-    names.push_back(skeleton.joints[j].name);
-    largest = std::max(largest, plans[j].shape);
-  }
+  for (std::size_t k = 0; k < plans.size(); ++k)
+    if (plans[k].shape_of >= 0 && plans[k].shape > alike)
+      names.push_back(
+          fmt::format("{} ({:.0f}°)", skeleton.joints[k].name, plans[k].shape * degrees_per_radian));
   if (names.empty()) return;
   work.report(
       info("shape-kept",
-           fmt::format("links of the two bodies differ by up to {:.0f}° as they stand, which is taken "
-                       "for their shape; turned as the motion does, but not to its direction: {}",
-                       largest * degrees_per_radian, listed(names))));
+           fmt::format("where these sit on the joint before them is the body's shape, which keeps its "
+                       "difference from the motion's: {}",
+                       listed(names))));
 }
 
 std::shared_ptr<const SourceFacts> facts_of(const Motion& target, const Motion& motion) {
@@ -210,8 +210,12 @@ RetargetResult retarget(const Motion& motion, const RetargetTarget& to, const Re
     if (moves[j] && j > 0)
       for (std::size_t t = 0; t < motion.frames(); ++t) result.translation(j).set(t, offsets[j]);
   }
-  out.scale = place_root({&from_skeleton, &world, &source_stands}, {&skeleton, &target_stands, to.sole},
-                         out.pairs, params.scale, result, work);
+  const PlacedRoot placed =
+      place_root({&from_skeleton, &world, &source_stands}, {&skeleton, &target_stands, to.sole}, out.pairs,
+                 params.scale, result, work);
+  out.scale = placed.scale;
+  if (!target_stands.frame)
+    keep_soles_up(out.pairs.target.legs, target_stands, to.feet, placed.ground, result, work);
   for (int j = 0; j < skeleton.size(); ++j) {
     const QuatTrack track = result.rotation(j);
     make_continuous(track.x, track.y, track.z, track.w);

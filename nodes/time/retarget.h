@@ -8,9 +8,11 @@
 // where the joint above has it already, so that no twist comes in. So links point where the source's do, and
 // turns about their own axes are the source's.
 //
-// Links that are the shape of a body rather than its pose are not aligned: from the pelvis and the chest to
-// the limbs, and links of spine and shoulders that differ by over 40°. Feet are aligned by their soles: C
-// turns about up only, as the angle from ankle to toe depends on how high the ankle stands.
+// Links that are the shape of a body rather than its pose are not aligned: a joint with several, as pelvis
+// and chest have, holds them at fixed angles to each other, and turns as its partner does. Feet are aligned
+// by their soles: C turns about up only, as the angle from ankle to toe depends on how high the ankle stands.
+// Where points of a mesh would be under the ground, toes and feet are bent up by the least that keeps them on
+// it.
 #pragma once
 #include <optional>
 #include <string>
@@ -19,6 +21,7 @@
 #include "graph/work.h"
 #include "nodes/motion/motion.h"
 #include "nodes/time/joint_pairs.h"
+#include "nodes/time/retarget_soles.h"
 
 namespace kinegraph {
 
@@ -28,8 +31,9 @@ struct RetargetParams {
 };
 
 struct RetargetTarget {
-  const Motion* motion;        // whose skeleton; its frames, if any, only where its rest pose shows no body
-  std::optional<double> sole;  // world height of the lowest point of a mesh on it, in the rest pose; m
+  const Motion* motion;         // whose skeleton; its frames, if any, only where its rest pose shows no body
+  std::optional<double> sole;   // world height of the lowest point of a mesh on it, in the rest pose; m
+  std::vector<SolePoint> feet;  // of that mesh
 };
 
 struct RetargetResult {
@@ -43,7 +47,8 @@ struct RetargetResult {
 // The pelvis' path is the source's, times the scale, from the same place; its height is what puts feet at
 // `scale` times the source's clearances. Where the target's root is not the pelvis, the root goes below it on
 // the ground and heads where it does. Joints without partners stay as the target stands. Throws Failure as
-// pair_joints. Warns as pair_joints; "not-upright". Info: "shape-kept", naming links that aren't aligned.
+// pair_joints. Warns as pair_joints; "not-upright". Info: "shape-kept", naming links that aren't
+// aligned and differ by over 5° as the bodies stand.
 RetargetResult retarget(const Motion& motion, const RetargetTarget& target, const RetargetParams& params,
                         Work& work);
 

@@ -9,8 +9,6 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double shape_limit = 40 / degrees_per_radian;
-
 enum class Kind { whole, middle, limb, foot };
 
 class Planning {
@@ -44,23 +42,34 @@ class Planning {
         const int source_next = pairs_.source_of[next];
         const Vec3 to = place(a_, source_next) - place(a_, plan.source);
         const Vec3 from = rotate(aligned[j] * facing_, place(b_, next) - place(b_, j));
-        const Quat turned = smallest_turn(from, to);
-        if (kind == Kind::limb || turn(turned) < shape_limit) {
-          aligned[j] = turned * aligned[j];
-          plan.to = next;
-          plan.source_to = source_next;
-        } else {
-          plan.shape = turn(turned);
-        }
+        aligned[j] = smallest_turn(from, to) * aligned[j];
+        plan.to = next;
+        plan.source_to = source_next;
       }
       plan.follow = inverse(way(a_, plan.source)) * aligned[j] * facing_ * way(b_, j);
     }
+    measure_shapes(out);
     return out;
   }
 
  private:
   static Vec3 place(const StandingPose& pose, int joint) { return pose.pose.positions[joint]; }
   static Quat way(const StandingPose& pose, int joint) { return pose.pose.orientations[joint]; }
+
+  // How far the links that nothing turns to the source's directions are off them, as both bodies stand.
+  void measure_shapes(std::vector<LinkPlan>& plans) const {
+    for (int k = 0; k < target_.size(); ++k) {
+      const int j = plans[k].source < 0 ? -1 : paired_above(k);
+      if (j < 0 || plans[j].to == k || !source_.is_below(plans[k].source, plans[j].source)) continue;
+      const Vec3 theirs = place(a_, plans[k].source) - place(a_, plans[j].source);
+      const Quat turned = way(a_, plans[j].source) * plans[j].follow * inverse(way(b_, j));
+      const Vec3 own = rotate(turned, place(b_, k) - place(b_, j));
+      if (norm(theirs) > tiny_a_ && norm(own) > tiny_b_) {
+        plans[k].shape = turn(smallest_turn(own, theirs));
+        plans[k].shape_of = j;
+      }
+    }
+  }
 
   int paired_above(int j) const {
     int above = target_.joints[j].parent;

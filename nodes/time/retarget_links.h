@@ -13,7 +13,10 @@ struct LinkPlan {
   Quat follow;      // O_t = O_s follow
   // The aligned link: to this joint of the target, whose partner is `source_to`; -1 = none.
   int to = -1, source_to = -1;
-  double shape = 0;  // rad by which a link differs that is left as the target stands
+  // Of the link that ends here and can't be turned to the source's direction, as its joint has others or is a
+  // foot's: rad by which they differ as the bodies stand, and the joint at its start; -1 = none such.
+  double shape = 0;
+  int shape_of = -1;
 };
 
 std::vector<LinkPlan> plan_links(const Skeleton& source, const Skeleton& target, const JointPairs& pairs,

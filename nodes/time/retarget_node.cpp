@@ -37,7 +37,7 @@ Motion standing(const Character& character) {
 NodeType retarget_node() {
   NodeType type;
   type.name = "Retarget";
-  type.code_version = 2;
+  type.code_version = 3;
   type.category = "time";
   type.help =
       "Puts a motion on another skeleton: other names, other proportions, another rest pose. Links point "
@@ -62,11 +62,11 @@ NodeType retarget_node() {
     RetargetParams params;
     params.map = compute.params().texts("map");
     params.scale = compute.params().number("scale");
-    RetargetTarget target{compute.optional_input<Motion>("target"), {}};
+    RetargetTarget target{compute.optional_input<Motion>("target"), {}, {}};
     Motion made;
     if (const auto* character = compute.optional_input<Character>("target")) {
       made = standing(*character);
-      target = {&made, sole_of(*character)};
+      target = {&made, sole_of(*character), sole_points(*character)};
     }
     RetargetResult result = retarget(motion, target, params, work);
     const auto paired = std::count_if(result.pairs.source_of.begin(), result.pairs.source_of.end(),

@@ -226,13 +226,14 @@ class Placing {
 
 }  // namespace
 
-double place_root(const RootSource& source, const RootTarget& target, const JointPairs& pairs, double asked,
-                  Motion& motion, Work& work) {
-  if (motion.frames() == 0) return asked > 0 ? asked : 1;
+PlacedRoot place_root(const RootSource& source, const RootTarget& target, const JointPairs& pairs,
+                      double asked, Motion& motion, Work& work) {
+  if (motion.frames() == 0) return {asked > 0 ? asked : 1, 0};
   const Placing placing(source, target, pairs, motion, work);
   const double scale = asked > 0 ? asked : placing.own_scale();
-  placing.place(placing.path(scale), motion);
-  return scale;
+  const Path path = placing.path(scale);
+  placing.place(path, motion);
+  return {scale, path.ground};
 }
 
 }  // namespace kinegraph

@@ -18,8 +18,7 @@ namespace kinegraph {
 using JointRoles = std::map<std::string, std::string>;
 
 // Links that joints turn, as roles from and to, in chains: where a skeleton lacks one in the middle, the link
-// goes to the next. Not among them: from pelvis and chest to the limbs, which is a body's shape, and feet,
-// which are held to the ground.
+// goes to the next. Not among them: held_links().
 inline std::vector<std::vector<std::string>> link_chains() {
   std::vector<std::vector<std::string>> chains = {
       {"spine.1", "spine.2", "spine.3", "neck.1", "neck.2", "head"}};
@@ -31,10 +30,28 @@ inline std::vector<std::vector<std::string>> link_chains() {
   return chains;
 }
 
+// Links that have no direction of their own: a joint with several, such as the pelvis, holds them at fixed
+// angles; and feet, whose soles are held to the ground. First what they are of, then their ends, of which a
+// body may lack the first.
+inline std::vector<std::pair<std::string, std::vector<std::string>>> held_links() {
+  std::vector<std::pair<std::string, std::vector<std::string>>> links = {{"pelvis", {"spine.1"}}};
+  for (const char* side : {".l", ".r"}) {
+    const auto of = [&](const char* role) { return std::string(role) + side; };
+    links.push_back({"pelvis", {of("thigh")}});
+    links.push_back({"spine.3", {of("clavicle"), of("arm")}});
+    links.push_back({of("foot"), {of("toe")}});
+  }
+  return links;
+}
+
 struct LinkErrors {
   double direction = 0, twist = 0;  // largest, degrees
   std::string worst_direction, worst_twist;
   int links = 0;
+  // Of held links: by how much their difference from the source's, as its joint sees it, changes in the clip.
+  double held_direction = 0;
+  std::string worst_held;
+  int held = 0;
 };
 
 // Directions in every frame; and of turns since frame 0, what the target turns otherwise about its link.
@@ -73,6 +90,27 @@ inline LinkErrors link_errors(const Motion& source, const JointRoles& source_rol
       }
     }
   }
+  for (const auto& [from, ends] : held_links())
+    for (const std::string& to : ends) {
+      if (!source_roles.count(from) || !source_roles.count(to)) continue;
+      if (!target_roles.count(from) || !target_roles.count(to)) continue;
+      const int ja = source.skeleton().find(source_roles.at(from));
+      const int jb = target.skeleton().find(target_roles.at(from));
+      const int kb = target.skeleton().find(target_roles.at(to));
+      EXPECT_TRUE(ja >= 0 && jb >= 0 && kb >= 0) << from << " " << to;
+      const auto seen = [&](std::size_t t) {
+        return rotate(inverse(a.orientation(ja)[t]), b.position(kb)[t] - b.position(jb)[t]);
+      };
+      ++out.held;
+      for (std::size_t t = 1; t < source.frames() && norm(seen(0)) > 1e-6; ++t) {
+        const double changed = turn(smallest_turn(seen(0), seen(t))) * degrees_per_radian;
+        if (changed > out.held_direction) {
+          out.held_direction = changed;
+          out.worst_held = from + " to " + to;
+        }
+      }
+      break;
+    }
   return out;
 }
 

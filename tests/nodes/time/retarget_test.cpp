@@ -5,8 +5,10 @@
 #include "nodes/all_nodes.h"
 #include "nodes/feet/carried_contacts.h"
 #include "nodes/feet/footskate.h"
+#include "nodes/files/motion_file.h"
 #include "nodes/gait/gait.h"
 #include "nodes/motion/character.h"
+#include "tests/nodes/files/plain_files.h"
 #include "tests/nodes/motion/sample_motion.h"
 #include "tests/nodes/run_node.h"
 #include "tests/nodes/time/other_bodies.h"
@@ -61,6 +63,19 @@ class Retarget : public ::testing::Test {
     for (const Diagnostic& one : work.reported)
       if (one.code == code) return &one;
     return nullptr;
+  }
+  static std::shared_ptr<const Character> mannequin() {
+    PlainFiles files;
+    Alone quiet;
+    const std::string path = std::string(KINEGRAPH_SOURCE_DIR) + "/graphs/characters/mannequin.glb";
+    return std::make_shared<const Character>(
+        dynamic_cast<const Character&>(*read_motion_file(path, {}, files, quiet).find("character")));
+  }
+  static double lowest(const Character& character, const Pose& pose) {
+    double low = 1e9;
+    for (const MeshPart& part : character.parts)
+      for (Vec3 v : posed_vertices(character, part, pose)) low = std::min(low, v.y);
+    return low;
   }
   static double largest_turn(const Motion& a, const Motion& b) {
     double largest = 0;
@@ -162,6 +177,40 @@ TEST_F(Retarget, feet_stand_on_the_ground_whatever_the_legs) {
         for (const auto& run : runs_of(point.planted))
           for (std::size_t t = run.start; t < run.end; ++t)
             EXPECT_NEAR(world.position(leg.ankle)[t].y, 0.075, 0.015) << other.name << " " << t;
+      }
+    }
+  }
+}
+
+TEST_F(Retarget, bends_toes_of_a_skin_that_would_go_below_the_ground) {
+  const auto character = mannequin();
+  const Motion target(character->skeleton, std::make_shared<SourceFacts>(), 30, 0, {});
+  const double sole = lowest(*character, rest_pose_of(*character->skeleton));
+  // Toes that point down all the time.
+  Motion walk = gait("walk");
+  for (const Leg& leg : find_legs(walk.skeleton()))
+    for (std::size_t t = 0; t < walk.frames(); ++t)
+      walk.rotation(leg.toe).set(t, walk.rotation(leg.toe)[t] * axis_angle({1, 0, 0}, 0.7));
+  const Motion plain = retarget(walk, {&target, sole, {}}, {}, work).motion;
+  const Motion bent = retarget(walk, {&target, sole, sole_points(*character)}, {}, work).motion;
+  double plain_low = 0, bent_low = 0;
+  for (std::size_t t = 0; t < walk.frames(); ++t) {
+    plain_low = std::min(plain_low, lowest(*character, pose_for(*character, plain, t)));
+    bent_low = std::min(bent_low, lowest(*character, pose_for(*character, bent, t)));
+  }
+  EXPECT_LT(plain_low, -0.04);
+  EXPECT_GT(bent_low, -0.012);
+  // Nothing but feet and toes is changed, and they don't jump.
+  const std::vector<Leg> legs = find_legs(*character->skeleton);
+  for (int j = 0; j < bent.joints(); ++j) {
+    const bool foot =
+        std::any_of(legs.begin(), legs.end(), [&](const Leg& leg) { return j == leg.ankle || j == leg.toe; });
+    for (std::size_t t = 0; t < walk.frames(); ++t) {
+      if (!foot) {
+        EXPECT_EQ(bent.rotation(j)[t], plain.rotation(j)[t]);
+      }
+      if (t > 0) {
+        EXPECT_LT(turn(bent.rotation(j)[t], bent.rotation(j)[t - 1]), 0.2) << t;
       }
     }
   }
