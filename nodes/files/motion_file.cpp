@@ -166,8 +166,11 @@ std::optional<Diagnostic> objection_to_writing(const std::string& path, std::str
         .hinting("link exactly one, or a motion and a character; use one Export a file")
         .at_port(ports[1]);
   const WriteFormat* writer = writer_of(path, format);
+  const std::string only_read = writer ? "" : read_format_of(path);
   if (!writer)
-    return error("unknown-format", "the file's ending tells no format")
+    return error("unknown-format", only_read.empty()
+                                       ? "the file's ending tells no format"
+                                       : fmt::format("{} files are read, not written", only_read))
         .hinting("set format or another ending; " + writable(ports))
         .at_param("file");
   for (const std::string& port : ports)

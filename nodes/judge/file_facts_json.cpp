@@ -82,6 +82,10 @@ void put_points(Json::Object& out, const Points& points, const PointsFacts& fact
   out["missing"] = facts.missing;
   out["missing_in_short_gaps"] = facts.short_gaps;
   out["whole_frames"] = facts.whole_frames;
+  if (facts.longest_label >= 0)
+    out["longest_gap"] = Json::Object{{"label", points.labels[static_cast<std::size_t>(facts.longest_label)]},
+                                      {"frame", facts.longest_at},
+                                      {"frames", facts.longest}};
   Json::Object gaps;
   for (std::size_t i = 0; i < facts.gaps.size(); ++i)
     if (facts.gaps[i] > 0) gaps[points.labels[i]] = facts.gaps[i];

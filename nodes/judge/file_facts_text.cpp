@@ -154,7 +154,10 @@ std::string facts_text(const MotionFile& file, const FileFacts& facts, const std
   for (const FileContent& content : file.contents)
     for (const auto& [label, text] : analysis_lines(*content.value)) out += line(label, text);
   if (facts.gltf) out += gltf_text(*facts.gltf, facts.format == "gltf");
-  if (motion || points) out += breaks_text(facts, names);
+  if (motion || points) {
+    out += line("numbers", facts.non_finite == 0 ? "all finite" : "some not finite");
+    out += breaks_text(facts, names);
+  }
   if (motion) out += '\n' + skeleton_tree(motion->skeleton());
   if (!facts.told.empty()) out += '\n';
   for (const Diagnostic& one : facts.told) out += to_text(one) + '\n';

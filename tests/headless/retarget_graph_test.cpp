@@ -28,5 +28,36 @@ TEST_F(RetargetGraph, gives_real_characters_the_style_of_a_real_clip) {
   }
 }
 
+// The saved graph with other files: every style goes onto every character, whatever names either has.
+TEST_F(RetargetGraph, gives_every_character_the_style_of_every_clip) {
+  KINEGRAPH_NEEDS_MOCAP();
+  struct Clips {
+    const char *source, *style;
+  };
+  const Clips pairs[] = {{"cmu/bvh/08_01.bvh", "cmu/asfamc/17_03.amc"},
+                         {"cmu/asfamc/16_31.amc", "xia/strutting_01_000.bvh"},
+                         {"xia/neutral_01_000.bvh", "cmu/bvh/104_HappyStartWalk_3.bvh"}};
+  const std::string characters[] = {mocap("gltf/CesiumMan.glb"), mocap("gltf/RiggedFigure.glb"),
+                                    mocap("gltf/KayKit_Knight.glb"),
+                                    KINEGRAPH_SOURCE_DIR "/graphs/characters/mannequin.glb"};
+  for (const std::string& character : characters)
+    for (const auto& [source, style] : pairs) {
+      SCOPED_TRACE(character + ": " + source + " in the style of " + style);
+      const auto drop = [](const std::string& clip) {
+        return std::string(clip.starts_with("cmu/bvh") ? "drop" : "keep");
+      };
+      const Ran ran =
+          run({"run", KINEGRAPH_SOURCE_DIR "/graphs/retarget.kg.json", "--set", "source=" + mocap(source),
+               "--set", "style=" + mocap(style), "--set", "character=" + character, "--set",
+               "walk.rest_frame=" + drop(source), "--set", "sneak.rest_frame=" + drop(style), "--out",
+               path("out"), "--report", path("report.json"), "--progress", "none"});
+      EXPECT_EQ(ran.exit, 0) << ran.out << ran.err;
+      // Its rules: half the distance in style or less, and no skating.
+      const auto checks = read_json("report.json")["checks"];
+      EXPECT_EQ(checks.size(), 2u);
+      for (const auto& check : checks) EXPECT_TRUE(check["passed"].get<bool>()) << check.dump();
+    }
+}
+
 }  // namespace
 }  // namespace kinegraph

@@ -3,9 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
+
 #include "nodes/components/components.h"
 #include "nodes/motion/metrics.h"
 #include "tests/mocap.h"
+#include "tests/nodes/files/bvh_texts.h"
 #include "tests/nodes/files/plain_files.h"
 
 namespace kinegraph {
@@ -93,6 +96,101 @@ TEST(FileFacts, NameWhatOtherProgramsStumbleOver) {
   const std::string all = codes(told_of(files, "/odd.bvh").facts);
   for (const char* code : {"three-adds-offset", "assimp-names", "three-names", "euler-wraps", "no-end-site"})
     EXPECT_THAT(all, HasSubstr(code));
+}
+
+// What a person asks, on files that answer it each in its own way: as text, and the value under a key as
+// JSON.
+TEST(FileFacts, AnswerEachQuestionOnRealFiles) {
+  KINEGRAPH_NEEDS_MOCAP();
+  struct Answer {
+    const char *question, *file, *text, *key, *json;
+  };
+  const Answer answers[] = {
+      {"kind", "cmu/asfamc/17_10.amc", "it: asf-amc, motion\n", "format", "\"asf-amc\""},
+      {"kind", "gltf/Fox.glb", "it: gltf, motion and character\n", "contents", "[\"motion\",\"character\"]"},
+      {"kind", "points/walking2.c3d", "it: c3d, points\n", "contents", "[\"points\"]"},
+      {"frames", "odd/MS2_8Walk_M.bvh", "frames    1588 at 30 a second, 52.9 s", "frames", "1588"},
+      {"rate", "points/walking2.c3d", "1249 at 250 a second", "fps", "250"},
+      {"length", "cmu/asfamc/17_10.amc", "2783 at 120 a second, 23.2 s", "seconds", "23.19"},
+      {"unit, by height", "cmu/bvh/08_01.bvh",
+       "unit      cmu (0.0564444 m), found by the figure's height, as the file doesn't say", "unit_name",
+       "\"cmu\""},
+      {"unit, said", "cmu/asfamc/17_10.amc", "unit      cmu (0.0564444 m), as :units says", "unit_from",
+       "\"as :units says\""},
+      {"unit of markers", "points/face_eyebrows.trc", "unit      cm (0.01 m), as Units says", "unit", "0.01"},
+      {"unit of glTF", "gltf/Fox.glb", "as glTF has it", "unit", "1"},
+      {"height", "cmu/bvh/08_01.bvh", "height    1.38 m in the rest pose, 1.39 m in frame 1", "rest_height",
+       "1.37"},
+      {"height of markers", "points/walking2.c3d", "height    1.68 m at most", "height", "1.6"},
+      {"up axis", "points/walking2.c3d", "up        Z", "up", "\"Z\""},
+      {"up axis", "gltf/Fox.glb", "up        Y", "up", "\"Y\""},
+      {"skeleton", "gltf/Fox.glb", "skeleton  24 joints, 0 End Sites", "ends", "[]"},
+      {"skeleton as a tree", "gltf/Fox.glb",
+       "\n      b_Tail01_012  4.260 15.959 0.000\n        b_Tail02_013  ", "joints",
+       "[{\"name\":\"_rootJoint\",\"offset\":["},
+      {"channel layout", "odd/rotation_first_root.bvh",
+       "channels  6 Zrotation Xrotation Yrotation Xposition Yposition Zposition: ", "joints",
+       "\"channels\":[\"Zrotation\",\"Xrotation\",\"Yrotation\",\"Xposition\""},
+      {"channel layout of several kinds", "odd/mixed_orders_test3.bvh",
+       "channels  3 Yrotation Zrotation Xrotation: RightForeArm, LeftForeArm", "", ""},
+      {"T-pose in front", "cmu/bvh_daz/49_06.bvh", "warning: rest-frame: ", "rest_frame", "true"},
+      {"no T-pose in front", "xia/old_13_000.bvh", "m in frame 0", "rest_frame", "false"},
+      {"missing markers", "points/walking2.c3d", "missing   27567 of 54956 samples", "missing", "27567"},
+      {"longest gap", "points/walking2.c3d", "longest: LCAL, frames 0 to 422", "longest_gap",
+       "{\"frame\":0,\"frames\":423,\"label\":\"LCAL\"}"},
+      {"missing of each marker", "points/walking2.c3d", "RLFC 67 %", "missing_of", "\"RLFC\":"},
+      {"nothing missing", "points/face_jaw.trc", "missing   none", "missing", "0"},
+      {"flips", "cmu/bvh/08_01.bvh", "flip of RThumb at frame 199: 171°", "breaks",
+       "\"frame\":199,\"joint\":\"RThumb\",\"kind\":\"flip\""},
+      {"jumps", "cmu/asfamc/17_10.amc", "jump of ltoes at frame 1146: 27°", "breaks",
+       "\"frame\":1146,\"joint\":\"ltoes\",\"kind\":\"jump\""},
+      {"spikes", "odd/MS2_8Walk_M.bvh", "spike of RightHand at frame 490", "breaks",
+       "\"frame\":490,\"joint\":\"RightHand\",\"kind\":\"spike\""},
+      {"jumps of markers", "points/walking2.c3d", "jump of LMFC at frame 616: 0.0459 m", "breaks",
+       "\"frame\":616,\"kind\":\"jump\",\"label\":\"LMFC\""},
+      {"no breaks", "gltf/Fox.glb", "breaks    no flips, jumps or spikes", "breaks", "[]"},
+      {"numbers", "gltf/Fox.glb", "numbers   all finite", "finite", "true"},
+      {"foot contacts", "cmu/asfamc/17_10.amc", "feet      lfoot heel 10 plants, 8 %; lfoot ball 38 plants",
+       "contacts", "\"foot\":\"lfoot\",\"part\":\"heel\",\"plants\":[["},
+      {"no feet", "odd/sinusoidal_no_endsite.bvh", "feet      none found", "contacts", "null"},
+      {"three.js", "bandai/dataset-1_walk_old_001.bvh",
+       "warning: three-adds-offset: three.js adds OFFSET and position", "diagnostics",
+       "\"code\":\"three-adds-offset\""},
+      {"three.js and names", "odd/derived/namespaced_joints.bvh", "warning: three-names: ", "diagnostics",
+       "\"code\":\"three-names\""},
+      {"filters and wraps", "odd/MS2_8Walk_M.bvh", "info: euler-wraps: frame 294: ", "diagnostics",
+       "\"code\":\"euler-wraps\""},
+      {"no End Site", "odd/sinusoidal_no_endsite.bvh", "info: no-end-site: ", "diagnostics",
+       "\"code\":\"no-end-site\""},
+      {"validator", "gltf/CesiumMan.glb", "uneven-weights", "gltf", "\"uneven_vertices\":"}};
+  std::map<std::string, Told> read;
+  for (const Answer& answer : answers) {
+    SCOPED_TRACE(std::string(answer.question) + " of " + answer.file);
+    if (!read.count(answer.file)) read[answer.file] = told_of(answer.file);
+    const Told& told = read[answer.file];
+    EXPECT_THAT(told.text, HasSubstr(answer.text));
+    const Json* value = *answer.key ? told.json.find(answer.key) : nullptr;
+    EXPECT_EQ(value != nullptr, *answer.key != 0) << answer.key;
+    if (value) {
+      std::string json = compact(*value);
+      for (const char* space : {": ", ", "})
+        for (std::size_t at = 0; (at = json.find(space, at)) != json.npos; ++at) json.erase(at + 1, 1);
+      EXPECT_THAT(json, HasSubstr(answer.json));
+    }
+  }
+}
+
+TEST(FileFacts, OfAFileWithANumberThatIsNoneSayWhere) {
+  PlainFiles files;
+  std::string text = small_bvh(two_frames());
+  files.made["/nan.bvh"] = text.replace(text.rfind(' '), 1, " nan ");
+  try {
+    told_of(files, "/nan.bvh");
+    ADD_FAILURE();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.diagnostic().code, "not-finite");
+    EXPECT_GT(failure.diagnostic().place.line, 0);
+  }
 }
 
 TEST(FileFacts, SayWhereTheFigureLiesAlongZ) {
