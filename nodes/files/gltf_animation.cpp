@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <set>
+#include <utility>
 
 #include "nodes/files/decimal.h"
 
@@ -15,23 +18,41 @@ namespace {
 
 enum class Between { step, linear, cubic };
 
+using Times = std::shared_ptr<const std::vector<double>>;
+
+// Key times by their accessor, which most channels of a clip share.
+class KeyTimes {
+ public:
+  explicit KeyTimes(const GltfFile& file) : file_(file) {}
+  Times operator()(int accessor) {
+    Times& times = known_[accessor];
+    if (!times) {
+      times = std::make_shared<const std::vector<double>>(gltf_numbers(file_, accessor, 1));
+      for (std::size_t i = 1; i < times->size(); ++i)
+        if (!((*times)[i] > (*times)[i - 1])) bad_gltf("an animation's times don't rise");
+    }
+    return times;
+  }
+
+ private:
+  const GltfFile& file_;
+  std::map<int, Times> known_;
+};
+
 // One channel: keys and their values, `width` numbers each.
 class Sampler {
  public:
-  Sampler(const GltfFile& file, const tinygltf::AnimationSampler& sampler, std::size_t width, bool scalars)
-      : width_(width), times_(gltf_numbers(file, sampler.input, 1)) {
+  Sampler(const GltfFile& file, const tinygltf::AnimationSampler& sampler, Times times, std::size_t width,
+          bool scalars)
+      : width_(width), kept_(std::move(times)), times_(*kept_) {
     between_ = sampler.interpolation == "STEP"          ? Between::step
                : sampler.interpolation == "CUBICSPLINE" ? Between::cubic
                                                         : Between::linear;
-    for (std::size_t i = 1; i < times_.size(); ++i)
-      if (!(times_[i] > times_[i - 1])) bad_gltf("an animation's times don't rise");
     // Weights of morph targets are scalars, several a key.
     values_ = gltf_numbers(file, sampler.output, scalars ? 1 : static_cast<int>(width));
     if (times_.empty() || values_.size() != times_.size() * width * (between_ == Between::cubic ? 3 : 1))
       bad_gltf("an animation has other numbers of times and values");
   }
-  const std::vector<double>& times() const { return times_; }
-
   // Into `out`, `width` numbers. A time within 1e-5 s of a key is the key's: keys are rounded to float32.
   void at(double time, bool turns, double* out) const {
     const auto after = std::upper_bound(times_.begin(), times_.end(), time + 1e-5);
@@ -68,7 +89,9 @@ class Sampler {
   }
   std::size_t width_;
   Between between_ = Between::linear;
-  std::vector<double> times_, values_;
+  Times kept_;
+  const std::vector<double>& times_;
+  std::vector<double> values_;
 };
 
 const tinygltf::Animation* chosen_clip(const tinygltf::Model& model, const std::string& wanted) {
@@ -99,10 +122,14 @@ double rate_of_keys(const std::set<double>& times) {
   return 0;
 }
 
+// Its values are read when they are needed: those of all channels at once would be more than the motion.
 struct Channel {
   int node;
   std::string path;
-  Sampler sampler;
+  const tinygltf::AnimationSampler* keys;
+  Times times;
+  std::size_t width;
+  Sampler sampler(const GltfFile& file) const { return {file, *keys, times, width, path == "weights"}; }
 };
 
 }  // namespace
@@ -113,6 +140,7 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
   const tinygltf::Animation* clip = chosen_clip(model, options.clip);
   const auto source = std::make_shared<const SourceFacts>(facts);
   std::vector<Channel> channels;
+  KeyTimes key_times(file);
   std::set<double> times;
   if (clip) {
     for (const tinygltf::AnimationChannel& channel : clip->channels) {
@@ -128,10 +156,9 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
         width = model.meshes[mesh].primitives.front().targets.size();
         if (width == 0) continue;
       }
-      channels.push_back(
-          {channel.target_node, channel.target_path,
-           Sampler(file, clip->samplers[channel.sampler], width, channel.target_path == "weights")});
-      times.insert(channels.back().sampler.times().begin(), channels.back().sampler.times().end());
+      const tinygltf::AnimationSampler& keys = clip->samplers[channel.sampler];
+      channels.push_back({channel.target_node, channel.target_path, &keys, key_times(keys.input), width});
+      times.insert(channels.back().times->begin(), channels.back().times->end());
     }
   } else {
     work.report(info("no-clip", "the file has no animation; the motion is one frame at rest"));
@@ -157,8 +184,9 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
     const int joint = nodes.joint_of_node[channel.node];
     if (joint < 0 || channel.path != "translation") continue;
     const Vec3 rest = skeleton.joints[joint].offset;
+    const Sampler sampler = channel.sampler(file);
     for (std::size_t t = 0; t < frames && !translates[joint]; ++t) {
-      channel.sampler.at(time_of(t), false, value.data());
+      sampler.at(time_of(t), false, value.data());
       const Vec3 place = nodes.scale_of_parent[joint] * Vec3{value[0], value[1], value[2]};
       translates[joint] = norm(place - rest) > 1e-7 + 1e-5 * norm(rest);
     }
@@ -168,6 +196,7 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
   for (const Channel& channel : channels) {
     work.check();
     const int joint = nodes.joint_of_node[channel.node];
+    const Sampler sampler = channel.sampler(file);
     if (channel.path == "weights") {
       const std::size_t targets =
           model.meshes[model.nodes[channel.node].mesh].primitives.front().targets.size();
@@ -176,14 +205,14 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
       for (std::size_t k = 0; k < targets; ++k)
         out.morphs.push_back({channel.node, static_cast<int>(k), std::vector<double>(frames)});
       for (std::size_t t = 0; t < frames; ++t) {
-        channel.sampler.at(time_of(t), false, weights.data());
+        sampler.at(time_of(t), false, weights.data());
         for (std::size_t k = 0; k < targets; ++k) out.morphs[first + k].weights[t] = weights[k];
       }
       continue;
     }
     if (joint < 0) continue;
     for (std::size_t t = 0; t < frames; ++t) {
-      channel.sampler.at(time_of(t), channel.path == "rotation", value.data());
+      sampler.at(time_of(t), channel.path == "rotation", value.data());
       if (channel.path == "rotation") {
         out.motion.rotation(joint).set(t, normalized(Quat{value[0], value[1], value[2], value[3]}));
       } else if (channel.path == "translation" && translates[joint]) {

@@ -168,8 +168,10 @@ GltfFile read_gltf_file(std::string_view bytes, const std::string& path, FileAcc
     std::replace(problem.begin(), problem.end(), '\n', ' ');
     bad_gltf(problem.empty() ? "the file can't be parsed" : problem);
   }
-  for (const tinygltf::Buffer& buffer : model->buffers)
+  for (tinygltf::Buffer& buffer : model->buffers) {
     file.buffers.emplace_back(buffer.data.begin(), buffer.data.end());
+    std::vector<unsigned char>().swap(buffer.data);  // held once
+  }
   file.model = std::move(model);
   return file;
 }

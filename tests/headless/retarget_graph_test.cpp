@@ -1,6 +1,11 @@
 // A clip's style on characters of other makes, from real files to GLB and BVH.
+#include <algorithm>
+
+#include "nodes/files/motion_file.h"
+#include "nodes/motion/character.h"
 #include "program.h"
 #include "tests/mocap.h"
+#include "tests/nodes/files/plain_files.h"
 
 namespace kinegraph {
 namespace {
@@ -26,6 +31,28 @@ TEST_F(RetargetGraph, gives_real_characters_the_style_of_a_real_clip) {
     const auto info = nlohmann::json::parse(run({"info", "--json", path("out/" + who + "_sneaks.glb")}).out);
     EXPECT_GT(info["frames"].get<int>(), 200) << info.dump();
   }
+}
+
+// What a person sees of the saved graph: the figure's shoes on the ground, nowhere far below it.
+TEST_F(RetargetGraph, keeps_the_figures_soles_on_the_ground) {
+  const Ran ran = run(
+      {"run", KINEGRAPH_SOURCE_DIR "/graphs/retarget.kg.json", "--out", path("out"), "--progress", "none"});
+  ASSERT_EQ(ran.exit, 0) << ran.out << ran.err;
+  PlainFiles files;
+  Alone work;
+  const MotionFile file = read_motion_file(path("out/mannequin_sneaks.glb"), {}, files, work);
+  const auto& character = dynamic_cast<const Character&>(*file.find("character"));
+  std::vector<double> lows;
+  for (std::size_t t = 0; t < file.motion()->frames(); t += 2) {
+    lows.push_back(1e9);
+    const Pose pose = pose_for(character, *file.motion(), t);
+    for (const MeshPart& part : character.parts)
+      for (const Vec3 v : posed_vertices(character, part, pose)) lows.back() = std::min(lows.back(), v.y);
+  }
+  std::sort(lows.begin(), lows.end());
+  EXPECT_GT(lows.front(), -0.03);
+  EXPECT_NEAR(lows[lows.size() / 2], 0, 0.015);
+  EXPECT_LT(lows.back(), 0.03);
 }
 
 // The saved graph with other files: every style goes onto every character, whatever names either has.
