@@ -35,6 +35,16 @@ struct Hold {
   Vec3 at(std::size_t frame) const { return target.size() == 1 ? target[0] : target[frame]; }
 };
 
+// What is held for one frame only is a point on the joint's way: it goes through it as fast as it would have
+// passed beside it, and the whole way about it is shifted by as much.
+Hold passing(const Hold& hold, const ConstVec3Track& joint, std::size_t frames) {
+  Hold shifted = hold;
+  const Vec3 offset = hold.at(hold.start) - joint[hold.start];
+  shifted.target.assign(frames, {});
+  for (std::size_t t = 0; t < frames; ++t) shifted.target[t] = joint[t] + offset;
+  return shifted;
+}
+
 Goal goal_of(std::vector<Hold> holds, const Motion& motion, const std::string& joint, double fade) {
   const std::size_t frames = motion.frames();
   std::sort(holds.begin(), holds.end(), [](const Hold& a, const Hold& b) { return a.start < b.start; });
@@ -120,7 +130,9 @@ std::map<int, std::vector<Hold>> holds_of_pins(const Motion& motion, const PinPa
                                                    pinned.start, pinned.end, motion.frames()))
                         .at_param(param)
                         .hinting("a range is [start, end) within the motion"));
-    holds[joint].push_back({pinned.start, pinned.end, {pinned.position}, param});
+    Hold hold{pinned.start, pinned.end, {pinned.position}, param};
+    if (pinned.end == pinned.start + 1) hold = passing(hold, world.position(joint), motion.frames());
+    holds[joint].push_back(std::move(hold));
   }
   return holds;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -17,6 +18,38 @@
 namespace kinegraph {
 namespace {
 
+// A curve through joints whose links are of very different lengths swings far away from them where they turn:
+// a fold in the middle of two equal links goes an eighth of the group's length away, and up to `bulge`
+// nothing changes; beyond it sub-joints come smoothly nearer to their straight links, so that none is further
+// off than `most_bulge`.
+constexpr double bulge = 0.15, most_bulge = 0.25;  // of the group's present length
+
+void hold_to_links(const SubJoints& sub, const WorldMotion& world, WorldMotion& places, Work& work) {
+  std::vector<double> length(world.frames());
+  for (const auto& group : sub.groups) {
+    work.check();
+    std::fill(length.begin(), length.end(), 0.0);
+    for (std::size_t n = 0; n + 1 < group.size(); ++n) {
+      const auto a = world.position(group[n]), b = world.position(group[n + 1]);
+      for (std::size_t t = 0; t < length.size(); ++t) length[t] += norm(b[t] - a[t]);
+    }
+    for (std::size_t n = 0; n + 1 < group.size(); ++n) {
+      const auto a = world.position(group[n]), b = world.position(group[n + 1]);
+      for (int l = 1; l < sub.all[sub.first[group[n]]].count; ++l) {
+        const double part = sub.all[sub.first[group[n]] + l].part();
+        const auto at = places.position(sub.first[group[n]] + l);
+        for (std::size_t t = 0; t < length.size(); ++t) {
+          const Vec3 straight = a[t] + part * (b[t] - a[t]), away = at[t] - straight;
+          const double free = bulge * length[t], square = dot(away, away);
+          if (!(square > free * free)) continue;
+          const double far = std::sqrt(square), over = far - free, room = (most_bulge - bulge) * length[t];
+          at.set(t, straight + ((free + over * room / (room + over)) / far) * away);
+        }
+      }
+    }
+  }
+}
+
 // Sub-joints on curves and straight links.
 WorldMotion driven_positions(const SubJoints& sub, const WorldMotion& world, Work& work) {
   WorldMotion out(static_cast<int>(sub.all.size()), world.frames(), world.scale());
@@ -30,6 +63,7 @@ WorldMotion driven_positions(const SubJoints& sub, const WorldMotion& world, Wor
       for (std::size_t t = 0; t < world.frames(); ++t) at.z[t] += weight * from.z[t];
     }
   }
+  hold_to_links(sub, world, out, work);
   return out;
 }
 

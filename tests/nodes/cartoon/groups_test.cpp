@@ -4,6 +4,7 @@
 
 #include "graph/diagnostic.h"
 #include "nodes/gait/gait_skeleton.h"
+#include "nodes/motion/character.h"
 #include "tests/nodes/cartoon/cartoon_clips.h"
 
 namespace kinegraph {
@@ -29,6 +30,14 @@ Skeleton tree(const std::vector<std::pair<std::string, std::string>>& joints) {
   return skeleton;
 }
 
+Skeleton skeleton_of(const char* file) {
+  PlainFiles files;
+  Alone work;
+  const MotionFile loaded = read_motion_file(mocap(file), {}, files, work);
+  if (loaded.motion()) return loaded.motion()->skeleton();
+  return *dynamic_cast<const Character&>(*loaded.find("character")).skeleton;
+}
+
 TEST(Groups, OfGaitsSkeletonAreLegsArmsAndNeck) {
   EXPECT_THAT(
       groups_as_text(*gait_skeleton({})),
@@ -48,6 +57,40 @@ TEST(Groups, OfCmusSkeletonEndWhereFingersPart) {
               ElementsAre("lhipjoint lfemur ltibia lfoot ltoes", "rhipjoint rfemur rtibia rfoot rtoes",
                           "lowerneck upperneck head", "lclavicle lhumerus lradius lwrist lhand",
                           "rclavicle rhumerus rradius rwrist rhand"));
+}
+
+TEST(Groups, OfGltfSamples) {
+  KINEGRAPH_NEEDS_MOCAP();
+  // Its joints have no names; the arms' first joints hang on the chest with the neck.
+  EXPECT_THAT(groups_as_text(skeleton_of("gltf/CesiumMan.glb")),
+              ElementsAre("node19 node20", "node16 node17 node18", "node13 node14 node15",
+                          "node7 node8 node9 node10", "node3 node4 node5 node6"));
+  EXPECT_THAT(groups_as_text(skeleton_of("gltf/Fox.glb")),
+              ElementsAre("b_Neck_04 b_Head_05", "b_RightUpperArm_06 b_RightForeArm_07 b_RightHand_08",
+                          "b_LeftUpperArm_09 b_LeftForeArm_010 b_LeftHand_011",
+                          "b_Tail01_012 b_Tail02_013 b_Tail03_014",
+                          "b_LeftLeg01_015 b_LeftLeg02_016 b_LeftFoot01_017 b_LeftFoot02_018",
+                          "b_RightLeg01_019 b_RightLeg02_020 b_RightFoot01_021 b_RightFoot02_022"));
+  EXPECT_THAT(groups_as_text(skeleton_of("gltf/SimpleSkin.gltf")), ElementsAre("node1 node2"));
+  // The Knight's handles for inverse kinematics hang on the root each alone.
+  EXPECT_THAT(groups_as_text(skeleton_of("gltf/KayKit_Knight.glb")),
+              testing::IsSupersetOf({"upperarm.l lowerarm.l wrist.l hand.l handslot.l", "head",
+                                     "upperleg.r lowerleg.r foot.r toes.r", "kneeIK.l"}));
+}
+
+TEST(Groups, OfOddSkeletons) {
+  KINEGRAPH_NEEDS_MOCAP();
+  EXPECT_THAT(groups_as_text(skeleton_of("odd/mae_TORSO_hash.bvh")),
+              ElementsAre("TLS LEFT_SHOULDER# LEFT_ELBOW LEFT_HAND",
+                          "TRS RIGHT_SHOULDER# RIGHT_ELBOW RIGHT_HAND", "TLH LEFT_HIP# LEFT_KNEE LEFT_FOOT",
+                          "TRH RIGHT_HIP# RIGHT_KNEE RIGHT_FOOT", "TN NECK# HEAD"));
+  EXPECT_THAT(groups_as_text(skeleton_of("odd/sinusoidal_no_endsite.bvh")),
+              ElementsAre("base child1 child2 child3"));
+  // A hand of five fingers branches; the fingers aren't limbs.
+  EXPECT_THAT(groups_as_text(skeleton_of("odd/makehuman_tpose.bvh")),
+              testing::IsSupersetOf(
+                  {"clavicle.L shoulder01.L upperarm01.L upperarm02.L lowerarm01.L lowerarm02.L wrist.L",
+                   "tongue04"}));
 }
 
 TEST(Groups, OfAMixamoLikeSkeletonLeaveOutFingersAndToeEnds) {

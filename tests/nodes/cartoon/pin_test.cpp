@@ -10,6 +10,7 @@
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/kinematics.h"
+#include "nodes/motion/resample.h"
 #include "tests/nodes/cartoon/cartoon_clips.h"
 #include "tests/nodes/run_node.h"
 #include "tests/nodes/time/walks.h"
@@ -106,6 +107,67 @@ TEST(Pin, AddsLittleAcceleration) {
         }
       }
     }
+  }
+}
+
+// Of a difference of two tracks, or of one, the largest acceleration between two frames.
+double acceleration(const ConstVec3Track& p, const ConstVec3Track* less, double fps, std::size_t first,
+                    std::size_t last) {
+  double most = 0;
+  for (std::size_t t = std::max<std::size_t>(first, 1); t + 1 < std::min(last, p.x.size()); ++t) {
+    const auto at = [&](std::size_t u) { return less ? p[u] - (*less)[u] : p[u]; };
+    most = std::max(most, norm(at(t + 1) - 2 * at(t) + at(t - 1)));
+  }
+  return most * fps * fps;
+}
+
+// The pinned point itself; the joints above it, whose own bends turn with the chain, add at most what they
+// already have.
+TEST(Pin, AddsLittleAccelerationToMovingClips) {
+  KINEGRAPH_NEEDS_MOCAP();
+  for (const char* file : cartoon_clips) {
+    Alone work;
+    const Motion clip = resampled(cartoon_clip(file, 240), 120, work);
+    double worst = 0, worst_above = 0;
+    for (const Motion& motion : {clip, rubber_joints(clip, {}, nullptr, work).motion}) {
+      const WorldMotion world = world_motion(motion);
+      for (const auto& group : automatic_groups(motion.skeleton(), small_ends(motion.skeleton()))) {
+        if (group.size() < 3) continue;
+        const int end = group.back();
+        for (const auto& [d, fade] : {std::pair{0.05, 0.25}, {0.2, 0.25}, {0.2, 0.5}})
+          for (Vec3 way : {Vec3{0, 1, 0}, Vec3{0.6, 0, -0.8}})
+            for (std::size_t frame : {motion.frames() / 3, motion.frames() / 2}) {
+              PinParams params;
+              params.fade = fade;
+              params.pins = {{motion.skeleton().joints[end].name, frame, frame + 1,
+                              world.position(end)[frame] + d * way}};
+              const WorldMotion pinned = world_motion(pin(motion, params, nullptr, work));
+              EXPECT_LT(norm(pinned.position(end)[frame] - params.pins[0].position), 1e-9);
+              const auto reach = static_cast<std::size_t>(fade * motion.fps()) + 2;
+              const std::size_t first = frame > reach ? frame - reach : 0, last = frame + reach;
+              double own = 0;
+              for (int joint : group)
+                own = std::max(own, acceleration(world.position(joint), nullptr, motion.fps(), first, last));
+              const double usual = d / (fade * fade);
+              for (int joint : group) {
+                const auto before = world.position(joint);
+                const double added =
+                    acceleration(pinned.position(joint), &before, motion.fps(), 0, motion.frames());
+                if (joint == end) {
+                  EXPECT_LT(added, 8 * usual)
+                      << file << " " << params.pins[0].joint << " " << d << " " << fade;
+                  worst = std::max(worst, added / usual);
+                } else {
+                  EXPECT_LT(added, 8 * usual + own)
+                      << file << " " << motion.skeleton().joints[joint].name << " " << d << " " << fade;
+                  worst_above = std::max(worst_above, added / (8 * usual + own));
+                }
+              }
+            }
+      }
+    }
+    EXPECT_GT(worst, 2);
+    RecordProperty(file, std::to_string(worst) + " d/t², above it " + std::to_string(worst_above));
   }
 }
 

@@ -246,39 +246,6 @@ TEST(RubberJoints, NeverFlipOnAnyClip) {
   EXPECT_GT(clips, 50);
 }
 
-TEST(RubberJoints, StayNearTheLimbOnRealClips) {
-  KINEGRAPH_NEEDS_MOCAP();
-  for (const char* file : cartoon_clips) {
-    Alone work;
-    const Motion clip = cartoon_clip(file);
-    RubberParams params = still_curve();
-    params.sub_joints.counts = {{"*", 10}};
-    const RubberResult rubber = rubber_joints(clip, params, nullptr, work);
-    const SubJoints& sub = rubber.sub_joints;
-    const WorldMotion before = world_motion(clip), after = world_motion(rubber.motion);
-    double worst = 0;
-    for (const auto& group : sub.groups) {
-      double total = 0;
-      for (std::size_t i = 1; i < group.size(); ++i) total += clip.skeleton().link_length(group[i]);
-      for (std::size_t i = 0; i + 1 < group.size(); ++i)
-        for (int l = 1; l < sub.all[sub.first[group[i]]].count; ++l)
-          for (std::size_t t = 0; t < clip.frames(); ++t) {
-            const Vec3 p = after.position(sub.first[group[i]] + l)[t];
-            double nearest = 1e9;
-            for (std::size_t k = 0; k + 1 < group.size(); ++k) {
-              const Vec3 a = before.position(group[k])[t], link = before.position(group[k + 1])[t] - a;
-              const double along =
-                  dot(link, link) > 0 ? std::clamp(dot(p - a, link) / dot(link, link), 0.0, 1.0) : 0;
-              nearest = std::min(nearest, norm(p - (a + along * link)));
-            }
-            worst = std::max(worst, nearest / total);
-          }
-    }
-    EXPECT_LT(worst, 0.3) << file;
-    RecordProperty(file, std::to_string(worst) + " of the group's length");
-  }
-}
-
 TEST(RubberJoints, HaveTheFeetOfTheirInput) {
   KINEGRAPH_NEEDS_MOCAP();
   Alone work;
