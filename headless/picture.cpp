@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "graph/file/write.h"
@@ -62,6 +63,13 @@ ValuePtr beside(Session& session, const Program& program, const Target& target) 
   return value_of(session, program, name, "contacts");
 }
 
+// Whether a motion moves any of a character's joints.
+bool fits(const Character& character, const Motion& motion) {
+  const auto& joints = character.skeleton->joints;
+  return std::any_of(joints.begin(), joints.end(),
+                     [&](const Joint& joint) { return motion.skeleton().find(joint.name) >= 0; });
+}
+
 Canvas drawing_of(const std::vector<Drawn>& all, const PictureArguments& arguments,
                   const std::string& title) {
   if (all.size() == 1) {
@@ -77,13 +85,13 @@ Canvas drawing_of(const std::vector<Drawn>& all, const PictureArguments& argumen
     if (auto motion = dynamic_cast<const Motion*>(one.value.get())) {
       rows.push_back({motion, one.name, dynamic_cast<const Contacts*>(one.beside.get())});
     } else if (auto character = dynamic_cast<const Character*>(one.value.get())) {
-      // One that makes no motion of its own, or only stands there, is dressed in the one named before it.
+      // It is dressed in the motion named before it, else in its own.
       auto own = dynamic_cast<const Motion*>(one.beside.get());
-      const bool dresses = i > 0 && dynamic_cast<const Motion*>(all[i - 1].value.get());
-      if (own && (own->frames() > 1 || !dresses))
-        rows.push_back({own, one.name});
-      else if (dresses)
+      const auto* before = i > 0 ? dynamic_cast<const Motion*>(all[i - 1].value.get()) : nullptr;
+      if (before && fits(*character, *before))
         rows.back().label += ", " + one.name;
+      else if (own)
+        rows.push_back({own, one.name});
       else
         throw UsageError(Diagnostic(error("no-picture", fmt::format("{} has no motion of its own", one.name))
                                         .hinting("name the motion to dress it in before it")));

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "nodes/cartoon/rubber_joints.h"
 #include "nodes/cartoon/rubber_skin.h"
 #include "nodes/feet/detect_contacts.h"
+#include "nodes/motion/elementary.h"
 #include "nodes/motion/joint_pattern.h"
 #include "nodes/node_params.h"
 #include "nodes/quiet_work.h"
@@ -70,12 +72,51 @@ void tell_of_limbs(const Skeleton& skeleton, const SubJoints& sub, Work& work) {
                                      sub.all.size(), limbs.empty() ? "none" : listed(limbs))));
 }
 
+// The mesh goes with the motion where both have the same body: joints by name, links at rest alike.
+void check_body(const Skeleton& motion, const Skeleton& character, Work& work) {
+  constexpr double most_turn = 5 / degrees_per_radian, most_length = 0.05;
+  std::vector<std::string> alone, other;
+  for (int j = 0; j < character.size(); ++j) {
+    const Joint& joint = character.joints[j];
+    const int partner = motion.find(joint.name);
+    if (partner < 0) {
+      alone.push_back(joint.name);
+      continue;
+    }
+    const double mine = character.link_length(j) * character.above_scale,
+                 theirs = motion.link_length(partner) * motion.above_scale;
+    if (j == 0 || std::max(mine, theirs) < 1e-3 * rest_height(character)) continue;
+    if (std::fabs(mine - theirs) > most_length * std::max(mine, theirs) ||
+        turn(smallest_turn(joint.offset, motion.joints[partner].offset)) > most_turn)
+      other.push_back(joint.name);
+  }
+  if (alone.size() == character.joints.size())
+    throw Failure(error("no-common-joint", "the motion and the character have no joint of the same name")
+                      .at_port("character")
+                      .hinting("link the character of the motion's own file, or put a Retarget node with the "
+                               "character as its target before motion"));
+  if (!alone.empty())
+    work.report(
+        warning("no-partner", fmt::format("{} of the character's {} joints aren't in the motion and stay "
+                                          "as they are at rest: {}",
+                                          alone.size(), character.size(), listed(alone)))
+            .at_port("character"));
+  if (!other.empty())
+    work.report(
+        warning("rest-pose-differs",
+                fmt::format("the motion's body is not the character's: {} of {} links are longer, shorter "
+                            "or turned at rest: {}",
+                            other.size(), character.size(), listed(other)))
+            .at_port("character")
+            .hinting("put a Retarget node with the character as its target before motion"));
+}
+
 }  // namespace
 
 NodeType rubber_joints_node() {
   NodeType type;
   type.name = "RubberJoints";
-  type.code_version = 5;
+  type.code_version = 6;
   type.category = "cartoon";
   type.help =
       "Turns limbs into rubber: cuts links into sub-joints, bends them along curves and lets them follow "
@@ -124,9 +165,11 @@ NodeType rubber_joints_node() {
       found = found_contacts(*motion, work);
       if (found) contacts = &*found;
     }
+    const auto* character = compute.optional_input<Character>("character");
+    if (character) check_body(motion->skeleton(), *character->skeleton, work);
     RubberResult rubber = rubber_joints(*motion, settings, contacts, work);
     tell_of_limbs(motion->skeleton(), rubber.sub_joints, work);
-    if (const auto* character = compute.optional_input<Character>("character")) {
+    if (character) {
       if (compute.wanted("character"))
         compute.output("character",
                        rubber_character(*character, *motion, rubber.sub_joints, settings.sub_joints, work));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "nodes/cartoon/rubber_joints.h"
@@ -103,7 +104,9 @@ class Rebinding {
         if (part.weights[entry] != 0)
           spread(old_skin, first, part.joints[entry], part.weights[entry], at[v], all[v]);
       }
-      keep_largest(all[v], most_influences);
+      std::set<int> joints;
+      for (const Influence& one : all[v]) joints.insert(one.joint);
+      keep_largest(all[v], std::clamp<std::size_t>(joints.size(), usual_influences, most_influences));
       most = std::max(most, static_cast<int>(all[v].size()));
     }
     part.influences = most;

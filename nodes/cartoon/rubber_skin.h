@@ -7,14 +7,15 @@
 
 namespace kinegraph {
 
-// The most influences of a vertex that are kept: what glTF readers take in two sets.
-inline constexpr int most_influences = 8;
+// Influences of a vertex that are kept: one set of glTF's, as three.js and most engines read no more; of a
+// vertex that is bound to more joints itself, as many as it has, up to two sets.
+inline constexpr int usual_influences = 4, most_influences = 8;
 
 // The character with the links of its joints cut as `of_motion` cuts those of `motion` (joints matched by
 // name). The weight of a vertex v on joint k goes to its sub-joints,
 //   w'_{v,k,l} = w_{v,k} d_l⁻¹ / Σ d⁻¹,
 // d_l the distance at rest, at least 1e-6 of the height, from v to the segment J'_{k,l} – J'_{k,l+1}. Of more
-// than most_influences the smallest are dropped and their weights go to the largest kept one of the same
+// than usual_influences the smallest are dropped and their weights go to the largest kept one of the same
 // joint, so sums hold. At rest every vertex stays where it was: inverse bind matrices are those of the joint,
 // seen from the sub-joint's own rest.
 Character rubber_character(const Character& character, const Motion& motion, const SubJoints& of_motion,

@@ -102,5 +102,18 @@ TEST_F(CartoonGraphs, GiveMotionsThatPictureCompareAndMetricsTake) {
   }
 }
 
+TEST_F(CartoonGraphs, PicturesDressACharacterInTheMotionNamedBeforeIt) {
+  KINEGRAPH_NEEDS_MOCAP();
+  const std::string file = std::string(KINEGRAPH_SOURCE_DIR) + "/tests/cartoon/cesium_man.kg.json";
+  const Ran ran =
+      run({"picture", file, "clip.motion", "clip.character", "wild.motion", "clip.character", "rubber.motion",
+           "rubber.character", "--var", "mocap=" + mocap(), "-o", path("man.svg"), "--progress", "none"});
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const std::string picture = read("man.svg");
+  EXPECT_THAT(picture, testing::HasSubstr("clip.motion, clip.character"));
+  EXPECT_THAT(picture, testing::HasSubstr("wild.motion, clip.character"));
+  EXPECT_THAT(picture, testing::HasSubstr("rubber.motion, rubber.character"));
+}
+
 }  // namespace
 }  // namespace kinegraph
