@@ -30,7 +30,7 @@ PinParams settings_of(const Params& params, const Motion& motion) {
 NodeType pin_node() {
   NodeType type;
   type.name = "Pin";
-  type.code_version = 4;
+  type.code_version = 5;
   type.category = "cartoon";
   type.help =
       "Makes hands, feet or other ends of chains pass exactly through given points, by bending the chain.";
