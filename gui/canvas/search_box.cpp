@@ -11,6 +11,7 @@
 namespace kinegraph {
 namespace {
 
+constexpr int rows_seen = 10;
 constexpr int index_role = Qt::UserRole, detail_role = Qt::UserRole + 1;
 
 // The name on the left, its family on the right.
@@ -62,7 +63,7 @@ SearchBox::SearchBox(QWidget* parent) : QFrame(parent) {
   help_->setObjectName("faint");
   help_->setWordWrap(true);
   help_->setAlignment(Qt::AlignTop);
-  help_->setFixedHeight(fontMetrics().lineSpacing() * 3 + 4);
+  help_->setFixedHeight(fontMetrics().lineSpacing() * 4 + 4);
   layout->addWidget(line_);
   layout->addWidget(list_);
   layout->addWidget(help_);
@@ -84,7 +85,6 @@ void SearchBox::open(QPoint at, const QString& prompt, std::vector<Entry> entrie
   line_->setAccessibleName(prompt);
   line_->clear();
   filter();
-  resize(340, 360);
   const QRect room = parentWidget()->rect().adjusted(8, 8, -8, -8);
   at.setX(std::max(room.left(), std::min(at.x(), room.right() - width())));
   at.setY(std::max(room.top(), std::min(at.y(), room.bottom() - height())));
@@ -115,6 +115,9 @@ void SearchBox::filter() {
     item->setData(detail_role, entries_[std::size_t(i)].detail);
     list_->addItem(item);
   }
+  const int row = list_->fontMetrics().height() + 8;
+  list_->setFixedHeight(std::clamp(list_->count(), 1, rows_seen) * row + 4);
+  resize(340, layout()->sizeHint().height());
   if (list_->count())
     list_->setCurrentRow(0);
   else

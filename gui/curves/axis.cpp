@@ -22,7 +22,7 @@ QString plain_number(double value) {
 }
 
 void paint_axis(QPainter& painter, const QRectF& area, const Theme& theme, double frames, double low,
-                double high, const QString& unit) {
+                double high, const QString& unit, const QString& across_name) {
   const double up = round_step(high - low, std::max(2, static_cast<int>(area.height() / 28)));
   for (double v = std::ceil(low / up) * up; v <= high; v += up) {
     const double y = area.bottom() - (v - low) / (high - low) * area.height();
@@ -43,6 +43,8 @@ void paint_axis(QPainter& painter, const QRectF& area, const Theme& theme, doubl
   }
   painter.setPen(theme.faint_text);
   painter.drawText(QRectF(4, area.top() - 24, area.left() - 10, 18), Qt::AlignRight | Qt::AlignVCenter, unit);
+  painter.drawText(QRectF(area.left() - 80, area.bottom() + 5, 66, 18), Qt::AlignRight | Qt::AlignTop,
+                   across_name);
 }
 
 }  // namespace kinegraph

@@ -12,8 +12,8 @@ namespace kinegraph {
 double round_step(double length, int wanted);
 // "1,250", "0.035"
 QString plain_number(double value);
-// Frames 0 … `frames` across, `low` … `high` up.
+// 0 … `frames` across, called `across`; `low` … `high` up, in `unit`.
 void paint_axis(QPainter& painter, const QRectF& area, const Theme& theme, double frames, double low,
-                double high, const QString& unit);
+                double high, const QString& unit, const QString& across);
 
 }  // namespace kinegraph

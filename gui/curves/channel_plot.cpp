@@ -68,7 +68,7 @@ void ChannelPlot::paintEvent(QPaintEvent*) {
   const double seconds = length();
   const auto y_of = [&](double v) { return area.bottom() - (v - low) / (high - low) * area.height(); };
   const auto x_of = [&](double s) { return area.left() + s / seconds * area.width(); };
-  paint_axis(painter, area, *theme_, seconds * playback_.fps(), low, high, unit_);
+  paint_axis(painter, area, *theme_, seconds * playback_.fps(), low, high, unit_, tr("frame"));
   painter.setClipRect(area);
   for (bool source : {true, false})
     for (const PlotSeries& one : series_) {

@@ -122,7 +122,7 @@ void WarpPlot::paintEvent(QPaintEvent*) {
   QRectF path = all, energy = all;
   if (width() > 1.5 * height()) {
     path.setWidth(all.width() * 0.6);
-    energy.setLeft(path.right() + 82);
+    energy.setLeft(path.right() + 96);
   } else {
     energy.setTop(all.bottom() - std::min(120.0, all.height() * 0.25));
     path.setBottom(energy.top() - 58);
@@ -138,7 +138,7 @@ void WarpPlot::paint_path(QPainter& painter, const QRectF& area) {
     const QColor far = theme_->dark ? QColor(0x4d6f9a) : QColor(0x8fb3dc);
     painter.drawImage(area, tinted(distances_, theme_->panel, far));
   }
-  paint_axis(painter, area, *theme_, across, 0, up, QString());
+  paint_axis(painter, area, *theme_, across, 0, up, QString(), tr("frame"));
   painter.setPen(theme_->text);
   painter.drawText(QRectF(area.left(), area.top() - 24, area.width(), 20), Qt::AlignLeft | Qt::AlignVCenter,
                    tr("Reference frame over source frame"));
@@ -166,7 +166,8 @@ void WarpPlot::paint_path(QPainter& painter, const QRectF& area) {
 void WarpPlot::paint_energy(QPainter& painter, const QRectF& area) {
   const std::vector<double>& energy = warp_->energy;
   const double low = 0, high = std::max(1e-12, *std::max_element(energy.begin(), energy.end())) * 1.05;
-  paint_axis(painter, area, *theme_, static_cast<double>(energy.size() - 1), low, high, QString());
+  paint_axis(painter, area, *theme_, static_cast<double>(energy.size() - 1), low, high, QString(),
+             tr("half-step"));
   painter.setPen(theme_->text);
   painter.drawText(QRectF(area.left(), area.top() - 24, area.width(), 20), Qt::AlignLeft | Qt::AlignVCenter,
                    tr("Energy: %1 to %2").arg(plain_number(energy.front()), plain_number(energy.back())));

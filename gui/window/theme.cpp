@@ -171,6 +171,8 @@ QScrollArea#parameter_rows, QScrollArea#parameter_rows > QWidget > QWidget { bac
 QCheckBox:focus { border: 1px solid %5; border-radius: 3px; }
 QLineEdit:focus, QPlainTextEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QTreeView:focus, QListView:focus, QTableView:focus, QSlider:focus { border: 1px solid %5; }
 QTreeView, QListView, QTableView { background: %8; border: 1px solid %3; border-radius: 4px; }
+QTreeView::indicator { width: 12px; height: 12px; border: 1px solid %7; border-radius: 3px; }
+QTreeView::indicator:checked { background: %5; border-color: %5; }
 QHeaderView::section { background: %1; border: none; border-bottom: 1px solid %3; padding: 4px 6px; }
 QTabBar::tab { padding: 6px 12px; border: none; border-bottom: 2px solid transparent; color: %7; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }

@@ -113,9 +113,9 @@ void gestures(const Theme& theme, const QDir& into, const QString& end) {
   {
     Shot shot(theme, into);
     shot.open("sneaky_walk");
-    shot.session().select({"style", "transfer"}, "transfer");
+    shot.session().select({"feet", "out"}, "feet");
     shot.press(Qt::Key_G);
-    shot.type("Style");
+    shot.type("Finish");
     shot.press(Qt::Key_Return);
     shot.press(Qt::Key_N);
     shot.type("Half as sneaky is enough.");
@@ -214,7 +214,6 @@ void docks(const Theme& theme, const QDir& into, const QString& end) {
     shot.window.playback().set_time(0.6);
     shot.wait();
     shot.take_dock("viewer_points" + end, "Viewer");
-    shot.take_dock("curves_empty" + end, "Curves");
     shot.take_dock("components_empty" + end, "Components");
     shot.take_dock("problems_empty" + end, "Problems");
   }
@@ -240,6 +239,7 @@ void docks(const Theme& theme, const QDir& into, const QString& end) {
     Shot shot(theme, into);
     shot.take_dock("viewer_empty" + end, "Viewer");
     shot.take_dock("timeline_empty" + end, "Timeline");
+    shot.take_dock("curves_empty" + end, "Curves");
     shot.take_dock("parameters_empty" + end, "Parameters");
   }
 }
