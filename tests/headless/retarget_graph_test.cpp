@@ -50,7 +50,7 @@ TEST_F(RetargetGraph, keeps_the_figures_soles_on_the_ground) {
       for (const Vec3 v : posed_vertices(character, part, pose)) lows.back() = std::min(lows.back(), v.y);
   }
   std::sort(lows.begin(), lows.end());
-  EXPECT_GT(lows.front(), -0.03);
+  EXPECT_GT(lows.front(), -0.06);  // at toe-off, after Footskate has lowered the hips; 0.073 without `soles`
   EXPECT_NEAR(lows[lows.size() / 2], 0, 0.015);
   EXPECT_LT(lows.back(), 0.03);
 }
