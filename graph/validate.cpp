@@ -31,7 +31,10 @@ class Validator {
     for (const auto& [name, node] : document_.nodes) {
       if (node.nested && !node.nested->type) check_file_of_graph(name, node);
       const NodeType* type = known_type(registry_, node);
-      if (!type) continue;  // reading has spoken of it
+      if (!type) {  // reading has spoken of it
+        check_links_of_missing(name, node);
+        continue;
+      }
       check_params(name, node, *type);
       check_inputs(name, node, *type);
       if (type->role == Role::select) check_choice(name, node, *type);
@@ -282,6 +285,17 @@ class Validator {
               .at_port(port.name)
               .hinting("\"node.port\", not a list"),
           inputs.place, name);
+  }
+
+  // Its ports are not known, but what it names is here or isn't. It can't run anyway, so the rest may.
+  void check_links_of_missing(const std::string& name, const Node& node) {
+    for (const auto& [port, inputs] : node.inputs)
+      for (const Link& link : inputs.links)
+        if (!document_.nodes.contains(link.node))
+          add(warning("unknown-node", fmt::format("there is no node \"{}\"", link.node))
+                  .at_port(port)
+                  .hinting(suggestion(link.node, names_)),
+              link.place, name);
   }
 
   void check_link(const std::string& name, const InputPort& port, const Link& link) {

@@ -117,9 +117,12 @@ struct FileStore::State {
     if (!visible) outside(shown);
     if (why == ENOENT || why == ENOTDIR) {
       const auto other = nearest_beside(path);
-      throw Failure(error("missing-file", "there is no file '" + shown + "'")
-                        .hinting(other.empty() ? "check the path; it starts at the graph file's folder"
-                                               : "did you mean '" + other + "'?"));
+      throw Failure(
+          error("missing-file", "there is no file '" + shown + "'")
+              .hinting(other.empty()
+                           ? "check the path: a graph's own start at its folder, the command line's at the "
+                             "current one"
+                           : "did you mean '" + other + "'?"));
     }
     throw Failure(error("unreadable-file", "'" + shown + "' can't be read: " + std::strerror(why))
                       .hinting("check its permissions"));

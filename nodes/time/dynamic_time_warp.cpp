@@ -117,7 +117,7 @@ std::vector<double> in_tiles(const Series& series, Work& work) {
 class Search {
  public:
   Search(const Series& warped, const Series& clock, const WarpLimits& limits, Work& work)
-      : warped_(warped), clock_(clock), work_(work), frames_(warped.frames), rows_(clock.frames) {
+      : clock_(clock), work_(work), frames_(warped.frames), rows_(clock.frames) {
     steps_ = std::max<std::size_t>(1, std::min(limits.max_step, frames_ - 1));
     holds_ = std::max<std::size_t>(2, std::min(limits.max_step, rows_));
     loose_ = limits.free_ends ? std::min(limits.max_step, frames_ - 1) : 0;
@@ -215,7 +215,6 @@ class Search {
     }
   }
 
-  const Series& warped_;
   const Series& clock_;
   Work& work_;
   std::size_t frames_, rows_, steps_, holds_, loose_;

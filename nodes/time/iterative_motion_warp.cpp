@@ -46,13 +46,13 @@ class Alternation {
       const WarpPath path = search(result);
       ++result.rounds;
       // A path that is only as good is no progress: so two equal paths can't take turns for ever.
-      const double now = energy(result, path);
-      if (path == result.path || now >= result.energy.back()) {
+      const double before = result.energy.back(), now = energy(result, path);
+      result.energy.push_back(now);
+      if (path == result.path || now >= before) {
         result.settled = true;
         return result;
       }
       result.path = path;
-      result.energy.push_back(now);
     }
   }
 

@@ -20,10 +20,12 @@ struct MotionWarpSettings {
 
 struct MotionWarpResult {
   WarpPath path;
-  Series a, b;                 // of the warped series' frames and dims
-  std::vector<double> energy;  // after the first search, then after every half-step
-  int rounds = 0;              // searches made
-  bool settled = false;        // the path repeated or the change fell below the tolerance
+  Series a, b;  // of the warped series' frames and dims
+  // After the first search, then of what every half-step found: the last one's, too, which may bring nothing
+  // and is then not taken.
+  std::vector<double> energy;
+  int rounds = 0;        // searches made
+  bool settled = false;  // the path repeated or the change fell below the tolerance
 };
 
 // Lays `warped` (the shorter, S) on the clock of `clock` (the longer, r):

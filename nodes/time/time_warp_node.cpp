@@ -85,7 +85,7 @@ NodeType time_warp_node() {
   type.param("tolerance", number(defaults.tolerance).between(0, 1).slider(0, 0.1),
              "Stops when scale and offset change by less.");
   add_map_param(type);
-  type.code_version = 2;
+  type.code_version = 3;
   type.compute = compute;
   return type;
 }

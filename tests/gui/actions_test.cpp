@@ -42,7 +42,9 @@ TEST(EditorActions, MenusAndHelpSayAllOfThem) {
     for (const QAction* action : menu->actions()) in_menus.insert(action->objectName());
   const QString help = help_page();
   for (const ActionRow& row : all_actions()) {
-    if (*row.menu) EXPECT_TRUE(in_menus.count(QString("action_") + row.name)) << row.name;
+    if (*row.menu) {
+      EXPECT_TRUE(in_menus.count(QString("action_") + row.name)) << row.name;
+    }
     EXPECT_TRUE(help.contains(QString(row.what).toHtmlEscaped())) << row.name;
   }
 }
@@ -68,7 +70,9 @@ TEST(EditorActions, EachRunsByItsKeys) {
     SCOPED_TRACE(row.name);
     Editor editor;
     ASSERT_TRUE(editor.window.open(graphs + "reuse.kg.json"));
-    if (name.contains("page")) ASSERT_TRUE(editor.window.open(graphs + "feet.kg.json"));
+    if (name.contains("page")) {
+      ASSERT_TRUE(editor.window.open(graphs + "feet.kg.json"));
+    }
     const std::string node = name == "open_inside" || name == "collapse" ? "sneaky" : "walk";
     if (editor.document().nodes.count(node)) editor.session().select({node}, node);
     if (name == "redo" || name == "undo") {

@@ -148,6 +148,8 @@ const Mistake mistakes[] = {
     {"UnknownOutput", with("Trim", "", R"("motion": "w.moton")"), 4,
      "error: unknown-port: n.motion: ", "motion"},
     {"UnknownNode", with("Trim", "", R"("motion": "wlk.motion")"), 4, "error: unknown-node: n.motion: ", "w"},
+    {"UnknownNodeInAnUnknownType", with("Trimm", "", R"("motion": "wlk.motion")"), 4,
+     "warning: unknown-node: n.motion: ", "w", 0, 0},
     {"NoLink", with("Trim", "", R"("motion": "w")"), 4, "error: bad-link: n.motion: ", "node.port"},
     {"WrongPortType", with("StyleTransfer", "", R"("motion": "w.motion", "style": "w.motion")"), 4,
      "error: type-mismatch: n.style: ", "Stats"},
@@ -189,7 +191,9 @@ TEST_P(BrokenGraphs, AreToldAndWriteNothing) {
   const Ran ran = run({"run", "g.kg.json"});
   EXPECT_EQ(ran.exit, mistake.run) << ran.err;
   const std::string told = mistake.told;  // "severity: code: …": run says the same
-  if (!told.empty()) EXPECT_THAT(ran.err, HasSubstr(told.substr(0, told.find(": ", told.find(": ") + 2))));
+  if (!told.empty()) {
+    EXPECT_THAT(ran.err, HasSubstr(told.substr(0, told.find(": ", told.find(": ") + 2))));
+  }
   EXPECT_EQ(files(), before);
 }
 
