@@ -111,7 +111,8 @@ std::vector<int> chain_to(const Skeleton& skeleton, int joint, const std::vector
   return chain;
 }
 
-std::map<int, std::vector<Hold>> holds_of_pins(const Motion& motion, const PinParams& params) {
+std::map<int, std::vector<Hold>> holds_of_pins(const Motion& motion, const WorldMotion& world,
+                                               const PinParams& params) {
   const Skeleton& skeleton = motion.skeleton();
   std::map<int, std::vector<Hold>> holds;
   for (std::size_t i = 0; i < params.pins.size(); ++i) {
@@ -274,7 +275,7 @@ Motion pin(const Motion& motion, const PinParams& params, const Contacts* contac
   const Skeleton& skeleton = motion.skeleton();
   if (motion.frames() == 0 || skeleton.size() == 0) return motion;
   const WorldMotion world = world_motion(motion, work);
-  auto holds = holds_of_pins(motion, params);
+  auto holds = holds_of_pins(motion, world, params);
   if (contacts) add_plants(motion, world, *contacts, holds, work);
   if (holds.empty()) return motion;
   std::set<int> pinned;
