@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nodes/motion/cut_links.h"
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/joint_pattern.h"
 
@@ -153,6 +154,11 @@ void warn_about_partners(const Skeleton& from, const Skeleton& to, const std::ve
                     .hinting("name partners with the parameter map, as FROM=TO"));
   }
   RestPose from_pose = rest_pose(from), to_pose = rest_pose(to);
+  const std::vector<bool> from_cut = on_cut_links(from), to_cut = on_cut_links(to);
+  const auto passes_cut = [](const Skeleton& skeleton, const std::vector<bool>& cut, int joint) {
+    const int parent = skeleton.joints[joint].parent;
+    return cut[joint] || (parent >= 0 && cut[parent]);
+  };
   constexpr double limit = 5 / degrees_per_radian;
   std::vector<std::string> differing;
   double largest = 0;
@@ -166,6 +172,11 @@ void warn_about_partners(const Skeleton& from, const Skeleton& to, const std::ve
       continue;
     Vec3 a = rest_way(from_pose, partner_of_to[ancestor], partner);
     Vec3 b = rest_way(to_pose, ancestor, j);
+    // A cut link starts along a curve: where it leads to is the same, its first joint's frame is turned.
+    if (passes_cut(from, from_cut, partner) || passes_cut(to, to_cut, j)) {
+      a = from_pose.positions[partner] - from_pose.positions[partner_of_to[ancestor]];
+      b = to_pose.positions[j] - to_pose.positions[ancestor];
+    }
     if (norm(a) < 1e-6 || norm(b) < 1e-6) continue;
     double angle = turn(smallest_turn(a, b));
     largest = std::max(largest, angle);

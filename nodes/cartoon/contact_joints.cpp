@@ -3,18 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "nodes/node_params.h"
 
 namespace kinegraph {
-namespace {
-
-constexpr double same_rate = 1e-3;  // frame times in text are rounded
-
-}  // namespace
-
 std::vector<int> contact_joints(const Contacts& contacts, const Motion& motion, Work& work) {
   const auto refuse = [](const char* code, std::string what, const char* hint) {
     throw Failure(error(code, std::move(what)).at_port("contacts").hinting(hint));
@@ -23,11 +16,7 @@ std::vector<int> contact_joints(const Contacts& contacts, const Motion& motion, 
     refuse("frames-differ",
            fmt::format("the contacts have {} frames and the motion {}", contacts.frames, motion.frames()),
            "find them in this motion, or in one of the same length");
-  if (std::fabs(contacts.fps - motion.fps()) > same_rate * motion.fps())
-    refuse("rates-differ",
-           fmt::format("the contacts have {:.6g} frames a second and the motion {:.6g}", contacts.fps,
-                       motion.fps()),
-           "put a Resample before DetectContacts, or find them in this motion");
+  check_same_rate(motion.fps(), contacts.fps, "motion", "contacts");
   std::vector<int> joints;
   std::vector<std::string> lacking;
   for (const FootPoint& point : contacts.points) {

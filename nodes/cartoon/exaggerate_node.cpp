@@ -58,7 +58,7 @@ ExaggerateParams settings_of(const Params& params, const Motion& motion, Work& w
 NodeType exaggerate_node() {
   NodeType type;
   type.name = "Exaggerate";
-  type.code_version = 5;
+  type.code_version = 6;
   type.category = "cartoon";
   type.help =
       "Exaggerates a motion: every joint swings further from its own average over time, and limbs stretch "
@@ -88,6 +88,9 @@ NodeType exaggerate_node() {
              "a wished largest stretch, such as 1.5: sigma and omega are then chosen to reach it, and only "
              "max_link is corrected; 0 = off");
   add_joints_param(type);
+  type.params.back().help +=
+      " Of a joint that is its rotation and the length of the link to it; where that link points is its "
+      "parent's rotation: choose whole limbs (LeftArm>), or give weights.";
   add_range_param(type);
   add_fade_param(type);
   add_amount_param(type);

@@ -12,7 +12,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double hold_to_identity = 0.005;  // of the links' squared length, about each axis
-constexpr double zero_link = 1e-6;          // of the height
+constexpr double zero_link = 1e-5;          // of the height
 
 constexpr double one_direction = 1 - 4e-15;  // of the trace of a square
 

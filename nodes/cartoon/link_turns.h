@@ -16,7 +16,7 @@ namespace kinegraph {
 Quat best_turn(std::span<const Vec3> from, std::span<const Vec3> to);
 
 // For each joint the joints at the far ends of its links; where a child stands on the joint itself (links of
-// less than 1e-6 of the height that never change), the child's own links count. A tip has none.
+// less than 1e-5 of the height that never change), the child's own links count. A tip has none.
 std::vector<std::vector<int>> links_below(const Motion& motion);
 // One flag a joint: it stands on its parent, always.
 std::vector<bool> on_parent(const Motion& motion);

@@ -116,7 +116,7 @@ void check_body(const Skeleton& motion, const Skeleton& character, Work& work) {
 NodeType rubber_joints_node() {
   NodeType type;
   type.name = "RubberJoints";
-  type.code_version = 6;
+  type.code_version = 7;
   type.category = "cartoon";
   type.help =
       "Turns limbs into rubber: cuts links into sub-joints, bends them along curves and lets them follow "
@@ -132,8 +132,10 @@ NodeType rubber_joints_node() {
   type.output("motion", "Motion", "the motion on the sub-joint skeleton", "motion");
   type.output("character", "Character",
               "the mesh on the sub-joint skeleton, its weights shared out; with a character in", "character");
-  type.param("sub_joints", table(integer(1).between(1, 100)),
-             "joint pattern to number of sub-joints of its link; by length where nothing is said");
+  type.param(
+      "sub_joints", table(integer(1).between(1, 100)),
+      "joint pattern to number of sub-joints of its link; by length where nothing is said. Hard shells, as a "
+      "mannequin's, need 12 or so not to gape where links stretch");
   type.param("groups",
              list(object({required(text("")).as("from", "the chain's joint nearest to the root"),
                           required(text("")).as("to", "its last joint")})),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "nodes/cartoon/rubber_joints.h"
@@ -26,21 +25,21 @@ struct Influence {
   double weight;
 };
 
-// Keeps the largest, gives what the others had to the largest kept one of the same joint.
+// Keeps the largest and at least one of every joint, gives what the others had to the largest kept one of the
+// same joint.
 void keep_largest(std::vector<Influence>& all, std::size_t most) {
   std::stable_sort(all.begin(), all.end(),
                    [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
   if (all.size() <= most) return;
-  // First one of every joint, as long as they fit, then the largest of the rest.
   std::vector<bool> kept(all.size());
-  std::size_t count = 0;
-  const auto has = [&](int joint) {
+  const auto largest_kept = [&](int joint) {
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (kept[i] && all[i].joint == joint) return true;
-    return false;
+      if (kept[i] && all[i].joint == joint) return i;
+    return all.size();
   };
-  for (std::size_t i = 0; i < all.size() && count < most; ++i)
-    if (!has(all[i].joint)) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (largest_kept(all[i].joint) == all.size()) {
       kept[i] = true;
       ++count;
     }
@@ -49,15 +48,8 @@ void keep_largest(std::vector<Influence>& all, std::size_t most) {
       kept[i] = true;
       ++count;
     }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (kept[i]) continue;
-    std::size_t heir = all.size();
-    for (std::size_t j = 0; j < all.size(); ++j)
-      if (kept[j] &&
-          (heir == all.size() || (all[j].joint == all[i].joint && all[heir].joint != all[i].joint)))
-        heir = j;
-    all[heir].weight += all[i].weight;
-  }
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!kept[i]) all[largest_kept(all[i].joint)].weight += all[i].weight;
   std::vector<Influence> left;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (kept[i]) left.push_back(all[i]);
@@ -104,9 +96,7 @@ class Rebinding {
         if (part.weights[entry] != 0)
           spread(old_skin, first, part.joints[entry], part.weights[entry], at[v], all[v]);
       }
-      std::set<int> joints;
-      for (const Influence& one : all[v]) joints.insert(one.joint);
-      keep_largest(all[v], std::clamp<std::size_t>(joints.size(), usual_influences, most_influences));
+      keep_largest(all[v], usual_influences);
       most = std::max(most, static_cast<int>(all[v].size()));
     }
     part.influences = most;

@@ -7,9 +7,10 @@
 
 namespace kinegraph {
 
-// Influences of a vertex that are kept: one set of glTF's, as three.js and most engines read no more; of a
-// vertex that is bound to more joints itself, as many as it has, up to two sets.
-inline constexpr int usual_influences = 4, most_influences = 8;
+// Influences of a vertex that are kept: one set of glTF's, as three.js (r187) and most engines read no more;
+// they would weigh what is left anew and put vertices elsewhere. A vertex that is bound to more joints itself
+// keeps one of each, so that sums hold.
+inline constexpr int usual_influences = 4;
 
 // The character with the links of its joints cut as `of_motion` cuts those of `motion` (joints matched by
 // name). The weight of a vertex v on joint k goes to its sub-joints,

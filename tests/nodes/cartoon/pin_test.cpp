@@ -373,7 +373,7 @@ TEST(PinNode, SaysWhichContactsHoldNothing) {
   for (FootPoint& point : none.points) point.joint_name = "l" + point.part;
   EXPECT_EQ(refusal(none), "no-common-joint contacts");
   slow.fps = 30;
-  EXPECT_EQ(refusal(slow), "rates-differ contacts");
+  EXPECT_EQ(refusal(slow), "rate-mismatch contacts");
   chainless.points[0].joint_name = "LeftUpLeg";
   EXPECT_THAT(run(chainless), testing::StartsWith("no-chain contacts"));
 }

@@ -14,6 +14,7 @@
 #include "nodes/gait/gait_skeleton.h"
 #include "nodes/motion/kinematics.h"
 #include "nodes/motion/resample.h"
+#include "nodes/node_params.h"
 #include "tests/nodes/cartoon/cartoon_clips.h"
 #include "tests/nodes/run_node.h"
 #include "tests/nodes/time/walks.h"
@@ -272,6 +273,23 @@ TEST(RubberJoints, HaveTheFeetOfTheirInput) {
     EXPECT_THAT(points(rubber.skeleton()), testing::ElementsAreArray(points(clip.skeleton())));
     EXPECT_FALSE(points(clip.skeleton()).empty());
   }
+}
+
+TEST(RubberJoints, HaveTheRestPoseOfTheirInputForThoseWhoCompare) {
+  Alone work;
+  const Motion walk = gait("walk", 1);
+  const Skeleton& plain = walk.skeleton();
+  const Motion rubber = rubber_joints(walk, {}, nullptr, work).motion;
+  warn_about_partners(rubber.skeleton(), plain, partners(rubber.skeleton(), plain, {}), work);
+  warn_about_partners(plain, rubber.skeleton(), partners(plain, rubber.skeleton(), {}), work);
+  for (const Diagnostic& told : work.reported) EXPECT_NE(told.code, "rest-pose-differs") << told.message;
+  // A limb that hangs elsewhere is told of as ever.
+  Skeleton bent = plain;
+  bent.joints[plain.find("LeftForeArm")].offset = {0, -0.28, 0};
+  Alone other;
+  warn_about_partners(rubber.skeleton(), bent, partners(rubber.skeleton(), bent, {}), other);
+  ASSERT_FALSE(other.reported.empty());
+  EXPECT_EQ(other.reported.back().code, "rest-pose-differs");
 }
 
 TEST(RubberJoints, GoThroughABvhFileAndBack) {

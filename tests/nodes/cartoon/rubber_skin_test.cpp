@@ -5,7 +5,9 @@
 #include <functional>
 #include <map>
 
+#include "nodes/cartoon/exaggerate.h"
 #include "nodes/cartoon/rubber_joints.h"
+#include "nodes/time/retarget.h"
 #include "tests/nodes/cartoon/cartoon_clips.h"
 #include "tests/nodes/run_node.h"
 #include "tests/nodes/time/walks.h"
@@ -140,6 +142,28 @@ TEST(RubberSkin, GivesMoreToNearerSubJoints) {
   }
 }
 
+TEST(RubberSkin, KeepsOneSetUnlessAVertexHasMoreJoints) {
+  Alone work;
+  const Motion walk = gait("walk", 1);
+  Character before = cloud(walk);
+  const RubberResult rubber = rubber_joints(walk, {}, nullptr, work);
+  EXPECT_EQ(rubber_character(before, walk, rubber.sub_joints, {}, work).parts[0].influences, 4);
+  // Six joints of a leg and an arm move every vertex.
+  MeshPart& part = before.parts[0];
+  part.influences = 6;
+  part.joints.clear();
+  part.weights.clear();
+  for (std::size_t v = 0; v < part.vertices(); ++v)
+    for (int i = 0; i < 6; ++i) {
+      const char* names[] = {"LeftUpLeg", "LeftLeg", "LeftFoot", "LeftArm", "LeftForeArm", "LeftHand"};
+      part.joints.push_back(static_cast<std::uint32_t>(walk.skeleton().find(names[i])));
+      part.weights.push_back(static_cast<float>(i + 1) / 21);
+    }
+  const Character after = rubber_character(before, walk, rubber.sub_joints, {}, work);
+  EXPECT_EQ(after.parts[0].influences, 6);
+  expect_rebound_well(before, after);
+}
+
 TEST(RubberSkin, HoldsOnRealCharacters) {
   KINEGRAPH_NEEDS_MOCAP();
   for (const char* file :
@@ -158,6 +182,67 @@ TEST(RubberSkin, HoldsOnRealCharacters) {
     expect_rebound_well(*character, after);
     EXPECT_NO_THROW(pose_for(after, rubber.motion, 0));
   }
+}
+
+// The least distance between the shells of two joints, each of the vertices that it moves by over nine
+// tenths.
+double gap(const Character& character, const Pose& pose, const std::string& one, const std::string& other) {
+  const MeshPart& part = character.parts[0];
+  const std::vector<Vec3> at = posed_vertices(character, part, pose);
+  std::vector<Vec3> shells[2];
+  for (std::size_t v = 0; v < at.size(); ++v) {
+    double of[2] = {};
+    for (int i = 0; i < part.influences; ++i) {
+      const std::size_t entry = v * static_cast<std::size_t>(part.influences) + static_cast<std::size_t>(i);
+      const std::string& name =
+          character.skeleton->joints[character.skins[part.skin].joints[part.joints[entry]]].name;
+      for (int k : {0, 1})
+        if (const std::string& limb = k == 0 ? one : other; name == limb || name.starts_with(limb + "_"))
+          of[k] += part.weights[entry];
+    }
+    for (int k : {0, 1})
+      if (of[k] > 0.9) shells[k].push_back(at[v]);
+  }
+  double least = 1e9;
+  for (Vec3 a : shells[0])
+    for (Vec3 b : shells[1]) least = std::min(least, norm(a - b));
+  return least;
+}
+
+// A link that doubles its length leaves its shell behind by that of its last sub-link: shorter ones, of which
+// a vertex keeps the nearest four, leave less.
+TEST(RubberSkin, ClosesGapsBetweenShellsWithMoreSubJoints) {
+  Alone work;
+  PlainFiles files;
+  const MotionFile file =
+      read_motion_file(KINEGRAPH_SOURCE_DIR "/graphs/characters/mannequin.glb", {}, files, work);
+  const auto& mannequin = dynamic_cast<const Character&>(*file.find("character"));
+  const Motion body(mannequin.skeleton, std::make_shared<SourceFacts>(), 30, 1,
+                    std::vector<bool>(mannequin.skeleton->joints.size(), false));
+  const Motion run = retarget(gait("run", 2), {&body, {}}, {}, work).motion;
+  ExaggerateParams exaggeration;
+  exaggeration.omega = 3;
+  exaggeration.keep_root = true;
+  const Motion wild = exaggerate(run, exaggeration, work).motion;
+  const auto widest = [&](int count) {
+    RubberParams params;
+    if (count > 0) params.sub_joints.counts = {{"*ForeArm", count}, {"*Leg", count}};
+    const RubberResult rubber = rubber_joints(wild, params, nullptr, work);
+    const Character after = rubber_character(mannequin, wild, rubber.sub_joints, params.sub_joints, work);
+    double most = 0;
+    for (std::size_t t = 0; t < wild.frames(); t += 8) {
+      const Pose pose = pose_for(after, rubber.motion, t);
+      for (const char* side : {"mixamorig:Left", "mixamorig:Right"})
+        most = std::max(most, gap(after, pose, side + std::string("ForeArm"), side + std::string("Hand")));
+    }
+    return most;
+  };
+  EXPECT_LT(gap(mannequin, rest_pose_of(*mannequin.skeleton), "mixamorig:LeftForeArm", "mixamorig:LeftHand"),
+            0.01);
+  const double usual = widest(0), finer = widest(12);
+  EXPECT_LT(usual, 0.08);
+  EXPECT_LT(finer, 0.035);
+  RecordProperty("gap", std::to_string(usual) + " m, with 12 sub-joints " + std::to_string(finer));
 }
 
 TEST(RubberJointsNode, PassesACharacterThrough) {
