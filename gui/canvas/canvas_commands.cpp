@@ -217,8 +217,8 @@ void GraphCanvas::add_note() {
   select_decor({}, {name});
   for (const SceneNote& note : scene_.notes())
     if (note.name == name)
-      edit_text(note.rect, {}, [this, name](const QString& text) {
-        session_.begin_gesture();
+      edit_text(note.rect, {}, [this, name, step = session_.history().position()](const QString& text) {
+        if (session_.history().position() == step) session_.continue_gesture();
         session_.perform([&](const Document& d, const Registry&) { return set_note_text(d, name, text); });
         session_.end_gesture();
       });
@@ -234,9 +234,13 @@ void GraphCanvas::group_in_frame() {
   select_decor({name}, {});
   for (const SceneFrame& frame : scene_.frames())
     if (frame.name == name)
-      edit_text(frame.title_bar, frame.title, [this, name](const QString& text) {
-        session_.perform([&](const Document& d, const Registry&) { return set_frame_title(d, name, text); });
-      });
+      edit_text(frame.title_bar, frame.title,
+                [this, name, step = session_.history().position()](const QString& text) {
+                  if (session_.history().position() == step) session_.continue_gesture();
+                  session_.perform(
+                      [&](const Document& d, const Registry&) { return set_frame_title(d, name, text); });
+                  session_.end_gesture();
+                });
 }
 
 void GraphCanvas::arrange() {

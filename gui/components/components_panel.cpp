@@ -232,7 +232,10 @@ void ComponentsPanel::find_wanted() {
       found = nearest_output(document, registry, current, {"Components"});
     }
   }
-  if (!found && document.nodes.count(components_.node)) found = components_;
+  // What was shown before stays, while its node still makes components: a Load's new file may hold none.
+  if (!found)
+    for (const Target& own : outputs_of(document, registry, components_.node, "Components"))
+      if (own.port == components_.port) found = components_;
   if (!found)
     for (const auto& [name, one] : document.nodes)
       if (one.type != "ComponentEdit" && !found) {

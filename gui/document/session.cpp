@@ -144,7 +144,8 @@ QString Session::autosave_path() const {
 }
 
 bool Session::autosave_found() const {
-  return is_unsaved_work(autosave_path(), path()) || is_unsaved_work(autosave_path() + aside, path());
+  // What was put aside was never answered: that the graph was saved since says nothing about it.
+  return is_unsaved_work(autosave_path(), path()) || is_unsaved_work(autosave_path() + aside, {});
 }
 
 void Session::keep_found() {
@@ -216,6 +217,11 @@ bool Session::perform(const std::function<Edit(const Document&, const Registry&)
 void Session::begin_gesture() {
   gesture_ = true;
   gesture_started_ = false;
+}
+
+void Session::continue_gesture() {
+  gesture_ = true;
+  gesture_started_ = can_undo();
 }
 
 void Session::end_gesture() {

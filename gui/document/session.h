@@ -85,6 +85,8 @@ class Session : public QObject {
   // Failure becomes refused(). Between begin_gesture and end_gesture all edits are one step (a drag).
   bool perform(const std::function<Edit(const Document&, const Registry&)>& make);
   void begin_gesture();
+  // The same, but what follows belongs to the newest step: what was put there is now given its words.
+  void continue_gesture();
   void end_gesture();
   bool in_gesture() const { return gesture_; }
   bool can_undo() const { return history().can_undo() && !is_read_only(); }

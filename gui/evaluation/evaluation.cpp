@@ -29,6 +29,24 @@ NodeStatus::State state_named(std::string_view name) {
   return State::waiting;
 }
 
+// A node and all before it, as text.
+void describe(const Document& document, const std::string& name, std::set<std::string>& seen,
+              std::string& text) {
+  const auto node = document.nodes.find(name);
+  if (node == document.nodes.end() || !seen.insert(name).second) return;
+  text += name + compact(to_json(node->second));
+  for (const auto& [port, inputs] : node->second.inputs)
+    for (const Link& link : inputs.links) describe(document, link.node, seen, text);
+}
+
+std::string described(const Document& document, const std::string& name) {
+  std::set<std::string> seen;
+  std::string text;
+  describe(document, name, seen, text);
+  for (const auto& [variable, value] : document.variables) text += variable + compact(value);
+  return text;
+}
+
 // So that the window's thread always comes first: on Linux a nice value belongs to a thread.
 void lower_priority_of_this_thread() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), 10);
@@ -80,6 +98,7 @@ struct Evaluation::Result {
   std::map<std::string, ValuePtr> values;
   std::map<std::string, std::shared_ptr<const Still>> stills;
   std::map<std::string, Diagnostics> left_out;  // nodes with problems that keep them from running
+  std::vector<std::string> outdated;            // failed before, changed since, and not run now
   bool effects = false;
   std::uint64_t generation = 0, graph = 0;
 };
@@ -194,6 +213,7 @@ void Evaluation::run(EvaluationRequest request) {
   }
   result->effects = request.effects;
   result->graph = request.graph;
+  const Document whole = request.document;  // before nodes with problems are set aside
   PlanOptions planning;
   planning.file = request.file;
   planning.folder = planning.set_folder = planning.out = request.folder;
@@ -231,11 +251,25 @@ void Evaluation::run(EvaluationRequest request) {
   for (const auto& [node, run] : result->log.nodes)
     if (run.state == NodeState::done && node.find('/') == std::string::npos)
       if (auto still = still_of(request, plan, node)) result->stills[node] = std::move(still);
+  find_outdated(whole, *result);
   for (const auto& [node, unused] : plan.passed)
     if (request.document.nodes.count(node))
       if (auto still = still_of(request, plan, node)) result->stills[node] = std::move(still);
   deliver(std::move(result));
   if (!request.effects && !stop->stopped()) look_around(request, plan, *stop);
+}
+
+// What failed, was mended and isn't looked at any more must not stand there as failed.
+void Evaluation::find_outdated(const Document& document, Result& result) {
+  std::erase_if(failed_as_, [&](const auto& entry) {
+    if (described(document, entry.first) == entry.second) return false;
+    result.outdated.push_back(entry.first);
+    return true;
+  });
+  for (const auto& [name, run] : result.log.nodes)
+    if (run.state == NodeState::failed || run.state == NodeState::blocked)
+      failed_as_[name] = described(document, name);
+  for (const auto& [name, diagnostics] : result.left_out) failed_as_[name] = described(document, name);
 }
 
 std::shared_ptr<const Still> Evaluation::still_of(const EvaluationRequest& request, const Plan& plan,
@@ -393,6 +427,10 @@ void Evaluation::deliver(std::shared_ptr<Result> result) {
         }
         // An older run that was stopped says nothing new, but its finished values are as good as any.
         for (auto& [name, value] : result->values) values_[name] = value;
+        for (const std::string& name : result->outdated) {
+          statuses_[name] = {};
+          emit status_changed(QString::fromStdString(name));
+        }
         for (const auto& [name, run] : result->log.nodes) {
           if (run.state == NodeState::skipped || run.state == NodeState::cancelled) continue;
           NodeStatus& status = statuses_[name];

@@ -78,6 +78,7 @@ class Evaluation : public QObject {
   std::shared_ptr<const Still> still_of(const EvaluationRequest& request, const Plan& plan,
                                         const std::string& node);
   void deliver(std::shared_ptr<Result> result);
+  void find_outdated(const Document& document, Result& result);
   void take_stills(const std::map<std::string, std::shared_ptr<const Still>>& stills);
   void sum_up_graph_nodes();
   void deliver_status(const std::string& node, NodeStatus status, std::uint64_t generation);
@@ -98,6 +99,9 @@ class Evaluation : public QObject {
 
   // The worker's thread only: stills by what they were made of, kept while the value is known.
   std::map<const Value*, std::pair<std::weak_ptr<const Value>, std::shared_ptr<const Still>>> stills_;
+
+  // And of nodes that could not run, what they and all before them looked like then.
+  std::map<std::string, std::string> failed_as_;
 
   // GUI thread only.
   std::map<std::string, NodeStatus> statuses_;

@@ -90,7 +90,7 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
 
   connect(name_, &QLineEdit::editingFinished, this, [this] {
     const std::string wanted = name_->text().trimmed().toStdString(), before = node_;
-    if (wanted.empty() || wanted == before) return;
+    if (wanted.empty() || wanted == before || !session_.document().nodes.count(before)) return;
     if (session_.perform([&](const Document& d, const Registry&) { return rename_node(d, before, wanted); }))
       session_.select({wanted}, wanted);
     else

@@ -119,6 +119,8 @@ class TableField : public ParamField {
   }
 
   void show_value(const Json& value) override {
+    // What was typed here stands in its cells already; filling them anew would take the editor away.
+    if (value == value_ && table_->rowCount() > 0) return;
     showing_ = true;
     value_ = value;
     if (by_name_ ? !value.is_object() : !value.is_array())
@@ -221,6 +223,9 @@ class TableField : public ParamField {
     if (row < 0 || to < 0 || std::size_t(std::max(row, to)) >= value_.array().size()) return;
     std::swap(value_.array()[std::size_t(row)], value_.array()[std::size_t(to)]);
     emit edited(value_);
+    showing_ = true;
+    fill();
+    showing_ = false;
     table_->setCurrentCell(to, 0);
   }
 

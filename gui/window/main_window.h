@@ -94,6 +94,8 @@ class MainWindow : public QMainWindow {
   void offer_missing_files();
   bool save_what_is_inside();  // false: the person would rather not run
   void offer_merge(const std::string& now);
+  // The file isn't what was read or saved here: offers to merge rather than to write over it.
+  bool changed_by_others();
   void run_effects();
   void ran_effects();
   void remember_recent(const QString& path);

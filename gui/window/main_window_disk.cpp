@@ -104,7 +104,8 @@ void MainWindow::offer_merge(const std::string& now) {
     notice_->say(
         tr("Both sides changed the same; what is open here was kept for: %1").arg(conflicts.join("; ")));
   };
-  notice_->say(tr("%1 changed on disk: %2.").arg(session_.title(), list),
+  notice_->say(tr("%1 changed on disk: %2. Merge it in, or keep what is open, before it is saved.")
+                   .arg(session_.title(), list),
                {{tr("Merge it in"), merge_in},
                 {tr("Show what changed"),
                  [this, changed, merge_in, now] {
@@ -115,6 +116,14 @@ void MainWindow::offer_merge(const std::string& now) {
                      offer_merge(now);
                  }},
                 {tr("Keep what is open"), [this, now] { session_.set_text_on_disk(now); }}});
+}
+
+bool MainWindow::changed_by_others() {
+  const std::string now = bytes_of(session_.path());
+  if (now.empty() || now == session_.text_on_disk() || now == session_.text()) return false;
+  if (has_error(read_document(now, session_.path().toStdString(), registry_).problems)) return false;
+  offer_merge(now);
+  return true;
 }
 
 void MainWindow::offer_missing_files() {

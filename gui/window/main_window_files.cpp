@@ -97,6 +97,7 @@ void MainWindow::choose_and_open() {
 
 bool MainWindow::save() {
   if (session_.path().isEmpty()) return save_as();
+  if (changed_by_others()) return false;
   try {
     session_.save();
     watch_files();
