@@ -16,6 +16,7 @@
 #include <QTimer>
 #include <set>
 
+#include "gui/viewer/viewer.h"
 #include "tests/gui/editor.h"
 
 namespace kinegraph::editor_test {
@@ -86,10 +87,11 @@ TEST(EditorActions, EachRunsByItsKeys) {
     QObject::connect(action, &QAction::triggered, [&] { ++ran; });
     press(editor, row);
     // Tab is the canvas's own key: what it opens is the search.
-    if (name == "add")
+    if (name == "add") {
       EXPECT_TRUE(editor.canvas().findChild<QWidget*>("search_box")->isVisible());
-    else
+    } else {
       EXPECT_EQ(ran, 1);
+    }
   }
 }
 
@@ -106,8 +108,87 @@ TEST(EditorActions, KeysGoToEveryDock) {
     auto* dock = editor.window.findChild<QDockWidget*>("dock_" + name.mid(3));
     ASSERT_TRUE(dock) << row.name;
     EXPECT_TRUE(dock->isVisible()) << row.name;
-    if (name != "go_problems" && name != "go_components" && name != "go_curves")
+    if (name != "go_problems" && name != "go_components" && name != "go_curves") {
       EXPECT_TRUE(QApplication::focusWidget() && dock->isAncestorOf(QApplication::focusWidget())) << row.name;
+    }
+  }
+}
+
+TEST(EditorActions, EveryActionWithKeysStandsInTheTable) {
+  Editor editor;
+  std::set<QString> rows;
+  for (const ActionRow& row : all_actions()) rows.insert(QString("action_") + row.name);
+  for (const QAction* action : editor.window.findChildren<QAction*>())
+    if (!action->shortcut().isEmpty()) {
+      EXPECT_TRUE(rows.count(action->objectName()))
+          << action->text().toStdString() << " " << action->shortcut().toString().toStdString();
+    }
+}
+
+// Rows of the viewer and timeline are keys of their docks, no actions: each must change what it says.
+TEST(EditorActions, KeysOfTheViewerAndTimelineDoWhatTheirRowsSay) {
+  Editor editor;
+  editor.session().open_text(R"({"format": "kinegraph", "schema": 1, "nodes": {"walk": {"type": "Gait"}}})",
+                             {});
+  editor.session().select({"walk"}, "walk");
+  auto& viewer = *editor.window.findChild<Viewer*>();
+  Playback& playback = editor.window.playback();
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return viewer.shown().size() == 1 && viewer.shown()[0].motion && playback.frames() > 0; },
+      30000));
+  const auto keys_of = [](const QString& keys) {
+    QStringList all = keys.split(", ");
+    if (keys == "Arrow keys") all = QStringList{"Left", "Right", "Up", "Down"};
+    if (keys == "1 … 9") all = QStringList{"1"};
+    if (keys == "+, -") all = QStringList{"+", "-"};
+    return all;
+  };
+  // All that the keys can change, as text.
+  const auto state = [&] {
+    const Viewer::Looks looks = viewer.looks();
+    const QImage picture = viewer.picture();
+    std::size_t pixels = qHashBits(picture.constBits(), std::size_t(picture.sizeInBytes()));
+    QString text = QString("%1 %2 %3 %4 %5 %6 %7")
+                       .arg(looks.trails)
+                       .arg(looks.contacts)
+                       .arg(looks.stretch)
+                       .arg(looks.follow)
+                       .arg(looks.ghosts)
+                       .arg(int(viewer.arrangement()))
+                       .arg(QString::fromStdString(viewer.pinned(1)));
+    text += QString(" %1 %2 %3 %4 %5 %6")
+                .arg(playback.frame())
+                .arg(playback.is_playing())
+                .arg(playback.loops())
+                .arg(playback.speed())
+                .arg(playback.in())
+                .arg(playback.out());
+    return text + " " + QString::number(playback.is_playing() ? 0 : pixels);
+  };
+  for (const ActionRow& row : all_actions()) {
+    const bool of_viewer = row.where == ActionRow::Where::viewer;
+    if (!of_viewer && row.where != ActionRow::Where::timeline) continue;
+    for (const QString& one : keys_of(row.keys)) {
+      SCOPED_TRACE(std::string(row.name) + ": " + one.toStdString());
+      playback.pause();
+      playback.clear_range();
+      playback.set_frame(40);
+      const QString name = row.name;
+      if (name == "unpin") viewer.pin(1, "walk");
+      if (name == "whole") playback.set_range(10, 60);
+      if (name == "viewer_frame") {  // away first
+        viewer.setFocus();
+        editor.key(Qt::Key_Left);
+        editor.key(Qt::Key_Plus);
+      }
+      editor.key(of_viewer ? Qt::Key_2 : Qt::Key_3, Qt::ControlModifier);
+      ASSERT_TRUE(QApplication::focusWidget());
+      const QString before = state();
+      const QKeyCombination keys = QKeySequence(one)[0];
+      editor.key(keys.key(), keys.keyboardModifiers());
+      EXPECT_NE(state(), before);
+      if (name == "pin") viewer.pin(1, "");
+    }
   }
 }
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <QComboBox>
+#include <QElapsedTimer>
 #include <QFile>
+#include <QLabel>
 #include <QPushButton>
 #include <QTimer>
 
@@ -140,6 +142,200 @@ TEST(EditorOnDisk, ANewerFileIsForReadingOnly) {
   EXPECT_FALSE(editor.window.action("save")->isEnabled());
   editor.add("gait");
   EXPECT_TRUE(editor.document().nodes.empty());
+}
+
+TEST(EditorOnDisk, WhoNeverRestsIsAutosavedToo) {
+  OnDisk editor;
+  QElapsedTimer clock;
+  clock.start();
+  bool saved = false;
+  for (int i = 0; clock.elapsed() < 6000 && !saved; ++i) {
+    editor.session().select({editor.document().nodes.begin()->first});
+    editor.canvas().setFocus();
+    editor.key(i % 2 ? Qt::Key_Left : Qt::Key_Right, Qt::ControlModifier);
+    QTest::qWait(200);
+    saved = QFile::exists(editor.session().autosave_path());
+  }
+  EXPECT_TRUE(saved);
+}
+
+TEST(EditorOnDisk, NewWorkDoesNotOverwriteTheAutosaveThatIsOffered) {
+  OnDisk first;
+  first.add("gait");
+  const std::string wanted = first.session().text();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(first.session().autosave_path()); }, 5000));
+  Editor second;
+  ASSERT_TRUE(second.window.open(first.path));
+  second.add("metrics");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(second.session().autosave_path()); }, 5000));
+  // Not answered: a third start still offers the first work.
+  Editor third;
+  ASSERT_TRUE(third.window.open(first.path));
+  QPushButton* take = nullptr;
+  for (QPushButton* button : second.window.findChild<QWidget*>("notice_bar")->findChildren<QPushButton*>())
+    if (button->text() == "Take it up") take = button;
+  ASSERT_TRUE(take);
+  EXPECT_TRUE(third.session().autosave_found());
+}
+
+TEST(EditorOnDisk, SavingDoesNotWriteOverWhatAColleagueSaved) {
+  OnDisk editor;
+  Document theirs = editor.document();
+  theirs.nodes.begin()->second.note = "theirs";
+  editor.add("gait");
+  const std::string text = write_document(theirs, editor.registry);
+  editor.rewrite(text);
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_S, Qt::ControlModifier);
+  QFile file(editor.path);
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  EXPECT_EQ(file.readAll().toStdString(), text);
+  file.close();
+  ASSERT_TRUE(editor.notice()->isVisible());
+  ASSERT_TRUE(editor.answer("Merge it in"));
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_S, Qt::ControlModifier);
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  EXPECT_EQ(file.readAll().toStdString(), editor.session().text());
+  EXPECT_EQ(editor.document().nodes.at(theirs.nodes.begin()->first).note, "theirs");
+  EXPECT_EQ(editor.document().nodes.size(), theirs.nodes.size() + 1);
+}
+
+TEST(EditorOnDisk, ANodeOfAnUnknownTypeIsKeptAndSaid) {
+  Editor editor;
+  const QString path = editor.folder.filePath("future.kg.json");
+  QFile file(path);
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write(R"({
+  "format": "kinegraph",
+  "schema": 1,
+  "nodes": {
+    "dream": {
+      "type": "DreamUp",
+      "params": {
+        "depth": [1, {"of": "sleep"}]
+      }
+    }
+  }
+}
+)");
+  file.close();
+  ASSERT_TRUE(editor.window.open(path));
+  EXPECT_TRUE(editor.canvas().scene().node("dream")->missing);
+  editor.session().select({"dream"}, "dream");
+  Editor::settle();
+  bool told = false;
+  for (QLabel* label : editor.window.findChildren<QLabel*>())
+    told = told || (label->isVisible() && label->text().contains("install the version that made it"));
+  EXPECT_TRUE(told);
+  editor.add("gait");
+  editor.key(Qt::Key_S, Qt::ControlModifier);
+  ASSERT_FALSE(editor.session().is_modified());
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  EXPECT_TRUE(file.readAll().contains(R"("depth": [1, {"of": "sleep"}])"));
+}
+
+TEST(EditorOnDisk, ADamagedClipFailsItsNodeWithWhatToDo) {
+  OnDisk editor;
+  for (const QFileInfo& clip : QDir(editor.folder.filePath("clips")).entryInfoList(QDir::Files)) {
+    QFile file(clip.absoluteFilePath());
+    ASSERT_TRUE(file.resize(file.size() / 3));
+  }
+  std::string load;
+  for (const auto& [name, node] : editor.document().nodes)
+    if (node.type == "Load") load = name;
+  editor.session().select({load}, load);
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        const NodeStatus* status = editor.window.evaluation().status(load);
+        return status && status->state == NodeStatus::State::failed;
+      },
+      20000));
+  const Diagnostics& said = editor.window.evaluation().status(load)->diagnostics;
+  EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const Diagnostic& d) {
+    return d.severity == Severity::error && !d.hint.empty() && !d.file.empty();
+  }));
+  EXPECT_FALSE(editor.session().is_modified());
+}
+
+TEST(EditorOnDisk, ADamagedGraphIsRefusedWithADialogAndWhatIsOpenStays) {
+  Editor editor(true);
+  ASSERT_TRUE(editor.window.open(graphs + "feet.kg.json"));
+  const std::string before = editor.session().text();
+  const QString path = editor.folder.filePath("torn.kg.json");
+  QFile file(path);
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write(before.data(), qint64(before.size() / 2));
+  file.close();
+  QString told;
+  editor.when_asked([&](QWidget& dialog) {
+    for (QLabel* label : dialog.findChildren<QLabel*>()) told += label->text() + "\n";
+    Editor::keys_to(dialog, {}, Qt::Key_Escape);
+  });
+  EXPECT_FALSE(editor.window.open(path));
+  EXPECT_TRUE(told.contains("torn.kg.json can't be opened")) << told.toStdString();
+  EXPECT_EQ(editor.session().text(), before);
+  EXPECT_EQ(editor.session().pages(), 1);
+}
+
+TEST(EditorOnDisk, RunAsksToSaveTheGraphInside) {
+  Editor editor(true);
+  QDir(editor.folder.path()).mkpath("pipelines");
+  for (const char* name : {"reuse.kg.json", "pipelines/sneakify.kg.json", "pipelines/restyle.kg.json",
+                           "pipelines/clean_feet.kg.json"})
+    ASSERT_TRUE(QFile::copy(graphs + name, editor.folder.filePath(name)));
+  ASSERT_TRUE(editor.window.open(editor.folder.filePath("reuse.kg.json")));
+  editor.session().select({"sneaky"}, "sneaky");
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_Return, Qt::ControlModifier);
+  ASSERT_EQ(editor.session().title(), "sneakify.kg.json");
+  editor.add("gait");
+  editor.key(Qt::Key_PageUp, Qt::ControlModifier);
+  ASSERT_EQ(editor.session().modified_inside().size(), 1u);
+  bool ran = false;
+  QObject::connect(&editor.window.evaluation(), &Evaluation::finished, &editor.window,
+                   [&](bool effects) { ran = ran || effects; });
+  // Escape: nothing is run and nothing saved.
+  editor.when_asked([&](QWidget& dialog) { Editor::keys_to(dialog, {}, Qt::Key_Escape); });
+  editor.key(Qt::Key_F5);
+  QTest::qWait(300);
+  EXPECT_FALSE(ran);
+  EXPECT_EQ(editor.session().modified_inside().size(), 1u);
+  // Enter: it is saved, then run.
+  editor.when_asked([&](QWidget& dialog) { Editor::keys_to(dialog, {}, Qt::Key_Return); });
+  editor.key(Qt::Key_F5);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return ran; }, 60000));
+  EXPECT_TRUE(editor.session().modified_inside().empty());
+}
+
+TEST(EditorEvaluation, AnEditCancelsTheOldWorkAndClosingDoesToo) {
+  const std::string long_warp = R"({"format": "kinegraph", "schema": 1, "nodes": {
+    "a": {"type": "Gait", "params": {"seconds": 120}},
+    "b": {"type": "Gait", "params": {"gait": "sneak", "seconds": 120}},
+    "warp": {"type": "TimeWarp", "inputs": {"source": "a.motion", "reference": "b.motion"}}}})";
+  int cancelled = 0;
+  {
+    Editor editor;
+    editor.session().open_text(long_warp, {});
+    editor.session().select({"warp"}, "warp");
+    const auto runs = [&] {
+      const NodeStatus* status = editor.window.evaluation().status("warp");
+      return status && status->state == NodeStatus::State::running;
+    };
+    ASSERT_TRUE(QTest::qWaitFor(runs, 60000));
+    QObject::connect(&editor.window.evaluation(), &Evaluation::finished, &editor.window,
+                     [&] { cancelled += editor.window.evaluation().log().stopped; });
+    editor.session().select({"a"}, "a");
+    editor.canvas().setFocus();
+    editor.key(Qt::Key_D);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return cancelled > 0; }, 20000));
+    editor.key(Qt::Key_Z, Qt::ControlModifier);
+    editor.session().select({"warp"}, "warp");
+    ASSERT_TRUE(QTest::qWaitFor(runs, 60000));
+    editor.key(Qt::Key_Q, Qt::ControlModifier);
+    EXPECT_FALSE(editor.window.isVisible());
+  }
+  EXPECT_GE(cancelled, 1);
 }
 
 }  // namespace

@@ -1,13 +1,16 @@
 // A real editor window for a test, moved with mouse and keys as a person would.
 #pragma once
+#include <gtest/gtest.h>
+
 #include <QApplication>
+#include <QClipboard>
+#include <QDialog>
 #include <QLineEdit>
 #include <QSlider>
 #include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QTest>
-#include <gtest/gtest.h>
-
+#include <functional>
 #include <string>
 
 #include "gui/window/main_window.h"
@@ -16,10 +19,11 @@
 namespace kinegraph::editor_test {
 
 struct Editor {
-  Editor() {
+  // `ask`: dialogs open as for a person, so that a test must answer them.
+  explicit Editor(bool ask = false) : window(registry, {.remember = false, .ask = ask, .cache_folder = {}}) {
     window.resize(1280, 800);
     window.show();
-    QTest::qWaitForWindowExposed(&window);
+    (void)QTest::qWaitForWindowExposed(&window);
     QApplication::setActiveWindow(&window);  // no window manager under Xvfb does it
     window.canvas().setFocus();
     settle();
@@ -29,16 +33,23 @@ struct Editor {
   const Document& document() { return window.session().document(); }
 
   static void settle() { QTest::qWait(30); }
+  // After a dialog the window is active again, which a window manager would see to.
+  void come_back() {
+    if (!QApplication::activeWindow() && !QApplication::activeModalWidget())
+      QApplication::setActiveWindow(&window);
+  }
   bool wait_for_evaluation(int ms = 30000) {
     return QTest::qWaitFor([&] { return !window.is_evaluating(); }, ms);
   }
 
   void key(int key, Qt::KeyboardModifiers keys = Qt::NoModifier) {
+    come_back();
     QWidget* widget = QApplication::focusWidget() ? QApplication::focusWidget() : &canvas();
     QTest::keyClick(widget, Qt::Key(key), keys);
     settle();
   }
   void type(const QString& text) {
+    come_back();
     QWidget* popup = QApplication::activePopupWidget();
     QWidget* widget = QApplication::focusWidget();
     if (!widget && popup) widget = popup->focusWidget();
@@ -82,9 +93,65 @@ struct Editor {
     return found == inputs.end() ? 0 : found->second.links.size();
   }
 
+  // The handle of a slider, dragged by so many pixels; `meanwhile` runs before the button is let go.
+  void drag_slider(QSlider& slider, int pixels, const std::function<void()>& meanwhile = {}) {
+    const int handle = slider.style()->pixelMetric(QStyle::PM_SliderLength, nullptr, &slider);
+    const int at = QStyle::sliderPositionFromValue(slider.minimum(), slider.maximum(), slider.value(),
+                                                   slider.width() - handle) +
+                   handle / 2;
+    const QPoint from(at, slider.height() / 2);
+    QTest::mousePress(&slider, Qt::LeftButton, {}, from);
+    for (int i = 1; i <= 8; ++i) {
+      const QPoint to = from + QPoint(pixels * i / 8, 0);
+      QMouseEvent event(QEvent::MouseMove, to, slider.mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
+                        Qt::NoModifier);
+      QApplication::sendEvent(&slider, &event);
+    }
+    if (meanwhile) meanwhile();
+    QTest::mouseRelease(&slider, Qt::LeftButton, {}, from + QPoint(pixels, 0));
+    settle();
+  }
+
+  // Keys for the dialog or menu that the next action opens: called once it is up. All must have been asked
+  // by the end of the test.
+  void when_asked(std::function<void(QWidget&)> answer) {
+    auto* timer = new QTimer(&window);
+    timer->setInterval(20);
+    ++unasked;
+    QObject::connect(timer, &QTimer::timeout, &window, [this, timer, answer = std::move(answer)] {
+      QWidget* up = QApplication::activePopupWidget();
+      if (!up) up = QApplication::activeModalWidget();
+      if (!up || !up->isVisible()) return;
+      timer->stop();
+      timer->deleteLater();
+      --unasked;
+      answer(*up);
+    });
+    timer->start();
+  }
+  static void keys_to(QWidget& dialog, const QString& text, int last = Qt::Key_Return) {
+    QWidget* widget = QApplication::focusWidget();
+    if (!widget || (widget != &dialog && !dialog.isAncestorOf(widget))) widget = dialog.focusWidget();
+    if (!widget) widget = &dialog;
+    QTest::keyClicks(widget, text);
+    QTest::keyClick(widget, Qt::Key(last));
+  }
+  // A file dialog gets a path, pasted, and Enter.
+  void name_file(const QString& path) {
+    when_asked([path](QWidget& dialog) {
+      QApplication::clipboard()->setText(path);
+      QWidget* line = dialog.focusWidget();
+      QTest::keyClick(line, Qt::Key_A, Qt::ControlModifier);
+      QTest::keyClick(line, Qt::Key_V, Qt::ControlModifier);
+      QTest::keyClick(line, Qt::Key_Return);
+    });
+  }
+  ~Editor() { EXPECT_EQ(unasked, 0) << "a dialog that should have come up never did"; }
+
+  int unasked = 0;
   QTemporaryDir folder;
   Registry registry = all_nodes();
-  MainWindow window{registry, {.remember = false, .ask = false, .cache_folder = {}}};
+  MainWindow window;
 };
 
 }  // namespace kinegraph::editor_test
