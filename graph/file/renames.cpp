@@ -19,13 +19,15 @@ const std::string& now(const std::string& name, const Renames& known) {
   return found == known.end() ? name : found->second;
 }
 
-// With the names that nodes have after the renames that are known.
-Consumers consumers_in(const Document& document, const Renames& known) {
+// Of the nodes that the other document lacks, with the names that nodes have after the renames that are
+// known.
+Consumers consumers_in(const Document& document, const Document& other, const Renames& known) {
   Consumers all;
   for (const auto& [name, node] : document.nodes)
     for (const auto& [port, inputs] : node.inputs)
       for (const Link& link : inputs.links)
-        all[link.node].push_back(link.port + ">" + now(name, known) + "." + port);
+        if (!other.nodes.contains(link.node))
+          all[link.node].push_back(link.port + ">" + now(name, known) + "." + port);
   return all;
 }
 
@@ -56,7 +58,8 @@ std::vector<Pair> pairs(const Document& before, const Document& after, const Ren
   };
   std::vector<Fresh> fresh;
   std::map<std::string, std::vector<std::size_t>> with_value;  // which of the new nodes have it
-  const Consumers consumers_before = consumers_in(before, known), consumers_after = consumers_in(after, {});
+  const Consumers consumers_before = consumers_in(before, after, known),
+                  consumers_after = consumers_in(after, before, {});
   for (const auto& [name, node] : after.nodes) {
     if (before.nodes.contains(name) || taken.contains(name)) continue;
     const Values values = values_of(name, node, consumers_after, {});
@@ -86,6 +89,18 @@ std::vector<Pair> pairs(const Document& before, const Document& after, const Ren
 
 Link renamed(const Link& link, const Renames& names) {
   return {now(link.node, names), link.port, link.place};
+}
+
+// All are taken out before any goes back, so that names may be exchanged.
+template <typename Map>
+void rename_keys(Map& map, const Renames& names) {
+  std::vector<typename Map::node_type> taken;
+  for (const auto& [from, to] : names)
+    if (auto entry = map.extract(from)) {
+      entry.key() = to;
+      taken.push_back(std::move(entry));
+    }
+  for (auto& entry : taken) map.insert(std::move(entry));
 }
 
 Json renamed_in_missing(Json whole, const Renames& names) {
@@ -123,19 +138,17 @@ Renames renames(const Document& before, const Document& after) {
 Document renamed(Document document, const Renames& names) {
   if (names.empty()) return document;
   Document result = std::move(document);
-  const auto before = std::exchange(result.nodes, {});
-  for (const auto& [name, node] : before) {
-    Node changed = node;
-    for (auto& [port, inputs] : changed.inputs)
-      for (Link& link : inputs.links) link = renamed(link, names);
-    if (changed.missing) changed.missing = renamed_in_missing(std::move(*changed.missing), names);
-    result.nodes[now(name, names)] = std::move(changed);
+  for (auto& [name, node] : result.nodes) {
+    for (auto& [port, inputs] : node.inputs)
+      for (Link& link : inputs.links)
+        if (names.contains(link.node)) link = renamed(link, names);
+    if (node.missing) node.missing = renamed_in_missing(std::move(*node.missing), names);
   }
+  rename_keys(result.nodes, names);
   for (auto* published : {&result.publish.params, &result.publish.inputs, &result.publish.outputs})
     for (auto& [name, links] : *published)
       for (Link& link : links) link = renamed(link, names);
-  const auto entries = std::exchange(result.ui.nodes, {});
-  for (const auto& [name, entry] : entries) result.ui.nodes[now(name, names)] = entry;
+  rename_keys(result.ui.nodes, names);
   for (auto& [name, frame] : result.ui.frames) {
     const Json* nodes = frame.find("nodes");
     if (!nodes || !nodes->is_array()) continue;
