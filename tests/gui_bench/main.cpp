@@ -60,6 +60,7 @@ struct Bench {
 
   QTemporaryDir folder;
   QString path;
+  int asked = 0;  // warps
   Registry registry = all_nodes();
   MainWindow window;
 };
@@ -78,10 +79,10 @@ bool warp_runs(Bench& bench) {
   return bench.window.is_evaluating() && status && status->state == NodeStatus::State::running;
 }
 
-// Another warp from here on: what ran is stopped.
-void ask_anew(Bench& bench, int turn) {
+// Another warp from here on, one that was never asked for: what ran is stopped.
+void ask_anew(Bench& bench) {
   bench.session().perform([&](const Document& d, const Registry& r) {
-    return set_param(d, r, "b", "speed", Json(1.0 + 0.01 * turn));
+    return set_param(d, r, "b", "speed", Json(1.0 + 0.001 * ++bench.asked));
   });
 }
 
@@ -112,8 +113,8 @@ std::vector<double> gaps(Bench& bench, int least) {
   hand.start(8);
   QElapsedTimer all;
   all.start();
-  for (int round = 1; int(found.size()) < least && all.elapsed() < 60000; ++round) {
-    ask_anew(bench, round);
+  while (int(found.size()) < least && all.elapsed() < 60000) {
+    ask_anew(bench);
     if (!QTest::qWaitFor([&] { return warp_runs(bench); }, 20000)) break;
     since.invalidate();
     counting = true;
@@ -139,7 +140,7 @@ void never_blocks() {
 
   std::vector<double> cancelled;
   for (int turn = 0; turn < 5; ++turn) {
-    ask_anew(bench, 200 + turn);
+    ask_anew(bench);
     if (!QTest::qWaitFor([&] { return warp_runs(bench); }, 60000)) break;
     QTest::qWait(150);
     if (!warp_runs(bench)) continue;
@@ -149,7 +150,7 @@ void never_blocks() {
       if (after < 0 && bench.window.evaluation().log().stopped) after = ms(clock);
     });
     clock.start();
-    ask_anew(bench, 300 + turn);
+    ask_anew(bench);
     (void)QTest::qWaitFor([&] { return after >= 0; }, 20000);
     QObject::disconnect(ended);
     cancelled.push_back(after);
@@ -164,7 +165,7 @@ void never_blocks() {
   const std::vector<double> playing = gaps(bench, 3000);
   tell("the same while the viewer plays: longest of " + std::to_string(playing.size()) + " gaps",
        part(playing, 1), "ms", 70);
-  ask_anew(bench, 400);
+  ask_anew(bench);
   (void)QTest::qWaitFor([&] { return warp_runs(bench); }, 20000);
   QElapsedTimer clock;
   clock.start();
