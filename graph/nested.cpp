@@ -217,7 +217,8 @@ class Opener {
     } catch (const Failure& failure) {
       return refuse("missing-file",
                     fmt::format("the graph file {} can't be read: {}", shown, failure.diagnostic().message),
-                    "paths are relative to the graph file");
+                    is_set(path) ? "a path on the command line starts at the current folder"
+                                 : "paths are relative to the graph file");
     }
     open_.push_back(path);
     open(*document, nested.folder, given_inside(node, *document, outer_folder));
@@ -243,6 +244,12 @@ class Opener {
   static std::string in_short(const Diagnostic& problem) {
     const std::string where = problem.node.empty() ? "" : problem.node + ": ";
     return fmt::format("line {}: {}{}", problem.place.line, where, problem.message);
+  }
+
+  bool is_set(const std::string& path) const {
+    return open_.size() <= 1 &&
+           std::any_of(options_.files.begin(), options_.files.end(),
+                       [&](const auto& file) { return absolute(options_.set_folder, file.second) == path; });
   }
 
   const ReadResult& text_of(const std::string& path) {

@@ -158,6 +158,8 @@ class Planner {
     }
     const NodeType* type = known_type(registry_, node->second);
     const Param* param = type ? type->find_param(target.port) : nullptr;
+    // A graph file that can't be opened makes its node a missing one, which tells what is wrong with it.
+    if (!type && node->second.nested && target.port == "file") return;
     if (!param)
       return complain(
           error("unknown-param", fmt::format("--set {}: {} has no parameter \"{}\"", to_text(target),

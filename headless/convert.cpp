@@ -6,6 +6,7 @@
 #include "graph/file/write.h"
 #include "headless/commands.h"
 #include "headless/exit_code.h"
+#include "headless/loaded_file.h"
 #include "nodes/files/motion_file.h"
 
 namespace kinegraph {
@@ -26,14 +27,6 @@ Json unit_param(const Program& program, const char* type, const std::string& tex
   }
 }
 
-// A problem with the file that was asked for, in the user's words for it.
-Diagnostic as_typed(Diagnostic problem, const std::string& path, const std::string& typed) {
-  if (problem.file == path) problem.file = typed;
-  for (std::size_t at = 0; (at = problem.message.find(path, at)) != std::string::npos; at += typed.size())
-    problem.message.replace(at, path.size(), typed);
-  return problem;
-}
-
 }  // namespace
 
 int convert_command(const Program& program, const ConvertArguments& arguments) {
@@ -46,6 +39,7 @@ int convert_command(const Program& program, const ConvertArguments& arguments) {
   WriteOptions write;
   write.unit = unit_param(program, "Export", arguments.out_unit, "--out-unit");
   const std::string in = absolute_path(arguments.in), out = absolute_path(arguments.out);
+  files.allow(in);
   EncodedFile encoded;
   try {
     const MotionFile file = read_motion_file(in, read, files, work);

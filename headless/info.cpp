@@ -1,6 +1,7 @@
 #include "graph/evaluate/file_store.h"
 #include "headless/commands.h"
 #include "headless/exit_code.h"
+#include "headless/loaded_file.h"
 #include "nodes/judge/file_facts.h"
 
 namespace kinegraph {
@@ -9,6 +10,7 @@ int info_command(const Program& program, const InfoArguments& arguments) {
   FileStore files;
   Alone work;
   const std::string path = absolute_path(arguments.file);
+  files.allow(path);
   try {
     ReadOptions as_it_is;
     as_it_is.max_gap = 0;
@@ -17,8 +19,8 @@ int info_command(const Program& program, const InfoArguments& arguments) {
     program.terminal.result(arguments.json ? indented(facts_json(file, facts, arguments.file))
                                            : facts_text(file, facts, arguments.file));
   } catch (const Failure& failure) {
-    Diagnostic problem = failure.diagnostic();
-    if (problem.file.empty() || problem.file == path) problem.file = arguments.file;
+    Diagnostic problem = as_typed(failure.diagnostic(), path, arguments.file);
+    if (problem.file.empty()) problem.file = arguments.file;
     throw Failure(problem);
   }
   return exit_code::done;

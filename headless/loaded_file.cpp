@@ -18,6 +18,13 @@ Opened graph_of_file(const std::string& file) {
   return opened;
 }
 
+Diagnostic as_typed(Diagnostic problem, const std::string& path, const std::string& typed) {
+  if (problem.file == path) problem.file = typed;
+  for (std::size_t at = 0; (at = problem.message.find(path, at)) != std::string::npos; at += typed.size())
+    problem.message.replace(at, path.size(), typed);
+  return problem;
+}
+
 LoadedFile load_file(Session& session, const Program& program, const std::string& port) {
   std::vector<std::string> ports{port};
   if (port.empty()) {

@@ -16,4 +16,7 @@ struct LoadedFile {
 };
 LoadedFile load_file(Session& session, const Program& program, const std::string& port);
 
+// A problem with the file at `path` in the words of whoever asked for it as `typed`.
+Diagnostic as_typed(Diagnostic problem, const std::string& path, const std::string& typed);
+
 }  // namespace kinegraph

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "graph/evaluate/run_log.h"
 #include "graph/json.h"
 
 namespace kinegraph {
@@ -38,6 +39,7 @@ void Progress::tell(const std::string& node, std::string_view state, double frac
                       "\n");
     return;
   }
+  if (state == name_of(NodeState::cancelled)) return;  // the bar stays where the node came to
   if (state == "running") {
     running_[node] = fraction;
     draw(false);

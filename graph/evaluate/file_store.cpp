@@ -100,6 +100,11 @@ struct FileStore::State {
     return false;
   }
 
+  bool is_named(const std::string& path) const {
+    std::lock_guard lock(mutex);
+    return std::find(named.begin(), named.end(), path) != named.end();
+  }
+
   [[noreturn]] static void outside(const std::string& shown) {
     throw Failure(error("outside-sandbox", "'" + shown + "' lies outside the folders that may be read")
                       .hinting("move it below the graph's folder, or name its folder with --assets"));
@@ -117,12 +122,12 @@ struct FileStore::State {
     if (!visible) outside(shown);
     if (why == ENOENT || why == ENOTDIR) {
       const auto other = nearest_beside(path);
-      throw Failure(
-          error("missing-file", "there is no file '" + shown + "'")
-              .hinting(other.empty()
-                           ? "check the path: a graph's own start at its folder, the command line's at the "
-                             "current one"
-                           : "did you mean '" + other + "'?"));
+      throw Failure(error("missing-file", "there is no file '" + shown + "'")
+                        .hinting(!other.empty() ? "did you mean '" + other + "'?"
+                                 : is_named(path)
+                                     ? "check the path: one on the command line starts at the current folder"
+                                     : "check the path: a graph's own start at its folder, the command "
+                                       "line's at the current one"));
     }
     throw Failure(error("unreadable-file", "'" + shown + "' can't be read: " + std::strerror(why))
                       .hinting("check its permissions"));

@@ -103,5 +103,66 @@ TEST_F(Messages, ARefusedLinkIsNamedWithWhereItLeads) {
   EXPECT_THAT(ran.err, HasSubstr("other/o.bvh"));
 }
 
+// A graph in "in" that reads a clip, and one that uses it.
+class MessagesOnArguments : public Messages {
+ protected:
+  void SetUp() override {
+    write("in/g.kg.json", graph(R"("clip": {"type": "Load", "params": {"file": "zebra.bvh"}})",
+                                R"("outputs": {"o": "clip.motion"}, "params": {"source": "clip.file"})"));
+    write("in/outer.kg.json", graph(R"("inner": {"type": "Graph", "params": {"file": "g.kg.json"}})",
+                                    R"("outputs": {"o": "inner.o"})"));
+  }
+};
+
+TEST_F(MessagesOnArguments, AVariableThatNothingUsesIsWarnedOf) {
+  write("walk.kg.json", graph(R"("walk": {"type": "Gait", "params": {"seconds": "${length}"}})",
+                              R"("outputs": {"o": "walk.motion"})"));
+  Ran ran = run({"run", "walk.kg.json", "--var", "length=1", "--var", "lenght=2", "--report", "r.json"});
+  EXPECT_EQ(ran.exit, 0);
+  EXPECT_THAT(ran.err, HasSubstr("walk.kg.json: warning: unused-variable: --var lenght: the graph has no "
+                                 "${lenght} (did you mean \"length\"?)"));
+  EXPECT_EQ(count_of(ran.err, "unused-variable"), 1u);
+  EXPECT_EQ(count_of(read("r.json"), "unused-variable"), 1u);
+  EXPECT_THAT(run({"validate", "walk.kg.json", "--var", "length=1", "--var", "lenght=2"}).out,
+              HasSubstr("unused-variable: --var lenght"));
+  EXPECT_EQ(run({"validate", "--strict", "walk.kg.json", "--var", "length=1", "--var", "lenght=2"}).exit, 3);
+}
+
+TEST_F(MessagesOnArguments, AFileThatIsMissingIsNamedAsItWasTyped) {
+  for (const std::string typed : {"none.bvh", "in/none.bvh", "./in/../none.amc"})
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"convert", typed, "o.bvh"}, std::vector<std::string>{"info", typed}}) {
+      Ran ran = run(command);
+      EXPECT_EQ(ran.exit, 3);
+      EXPECT_THAT(ran.err, HasSubstr("missing-file: there is no file '" + typed + "'"));
+      EXPECT_THAT(ran.err, Not(HasSubstr(path(""))));
+      EXPECT_THAT(ran.err, HasSubstr("current folder"));
+    }
+  EXPECT_FALSE(exists("o.bvh"));
+}
+
+TEST_F(MessagesOnArguments, AMissingPathOfSetIsLookedForInTheCurrentFolder) {
+  for (const char* set : {"clip.file=none.bvh", "source=none.bvh"}) {
+    Ran ran = run({"run", "in/g.kg.json", "--set", set});
+    EXPECT_EQ(ran.exit, 1);
+    EXPECT_THAT(ran.err, HasSubstr("there is no file 'none.bvh' (check the path: one on the command line "
+                                   "starts at the current folder)"));
+  }
+  Ran own = run({"run", "in/g.kg.json"});
+  EXPECT_EQ(own.exit, 1);
+  EXPECT_THAT(own.err, HasSubstr("'zebra.bvh' (check the path: a graph's own start at its folder"));
+}
+
+TEST_F(MessagesOnArguments, AMissingGraphFileOfSetIsLookedForInTheCurrentFolder) {
+  Ran ran = run({"run", "in/outer.kg.json", "--set", "inner.file=none.kg.json"});
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_THAT(ran.err, HasSubstr("there is no file '" + path("none.kg.json") +
+                                 "' (a path on the command line starts at the current folder)"));
+  EXPECT_THAT(ran.err, Not(HasSubstr("no parameter")));
+  write("in/lost.kg.json", graph(R"("inner": {"type": "Graph", "params": {"file": "none.kg.json"}})",
+                                 R"("outputs": {"o": "inner.o"})"));
+  EXPECT_THAT(run({"run", "in/lost.kg.json"}).err, HasSubstr("(paths are relative to the graph file)"));
+}
+
 }  // namespace
 }  // namespace kinegraph

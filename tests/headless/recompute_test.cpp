@@ -99,8 +99,8 @@ Names downstream_of(const std::string& start, const std::map<std::string, Names>
   return reached;
 }
 
-// For each node of the file that gave outputs: where they came from. What stands inside a Graph counts as
-// its.
+// For each node of the file that gave outputs: where they came from. What stands inside a Graph counts as its
+// own.
 std::map<std::string, Names> sources_of_outputs(const nlohmann::json& report) {
   std::map<std::string, Names> came_from;
   for (const auto& [name, node] : report["nodes"].items())
@@ -171,8 +171,10 @@ TEST_P(Recompute, OnlyWhatDependsOnTheChangedParameter) {
 INSTANTIATE_TEST_SUITE_P(Examples, Recompute, testing::ValuesIn(every_example()),
                          [](const auto& file) { return file.param.substr(0, file.param.find('.')); });
 
-// Each type that an example computes has its change above, but for those without a number or choice.
-TEST_F(ProgramTest, EveryTypeOfTheExamplesWithANumberOrChoiceIsChanged) {
+class RecomputeTable : public ProgramTest {};
+
+// But those without a number or choice.
+TEST_F(RecomputeTable, HasEveryTypeOfTheExamplesWithANumberOrChoiceIsChanged) {
   const auto reference = nlohmann::json::parse(run({"nodes", "--json"}).out)["nodes"];
   Names missing;
   for (const auto& file : every_example()) {

@@ -2,7 +2,9 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <regex>
 #include <thread>
 
 #include "program.h"
@@ -287,7 +289,7 @@ TEST_F(Run, SignalsStopItWithAReport) {
     for (int i = 0; i < 500; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
       std::error_code none;
-      if (std::filesystem::file_size(running.err, none) > 0) break;
+      if (const auto size = std::filesystem::file_size(running.err, none); !none && size > 0) break;
     }
     kill(running.process, signal);
     Ran ran = wait(running);
@@ -324,6 +326,18 @@ TEST_F(Run, ProgressForProgramsIsAnObjectALine) {
     done = done || (told["node"] == "walk" && told["state"] == "done");
   }
   EXPECT_TRUE(done);
+}
+
+TEST_F(Run, TheBarOfARunThatTimesOutStaysWhereItCameTo) {
+  write("g.kg.json", long_warp());
+  Ran ran = run({"run", "g.kg.json", "--timeout", "0.6", "--progress", "bar"});
+  ASSERT_EQ(ran.exit, 124);
+  const std::regex share(R"( ([ 0-9]{3}) %  [0-9.]+ s )");
+  int most = -1;
+  for (std::sregex_iterator at(ran.err.begin(), ran.err.end(), share), end; at != end; ++at)
+    most = std::max(most, std::stoi((*at)[1]));
+  EXPECT_GE(most, 0);
+  EXPECT_LT(most, 100);
 }
 
 TEST_F(Run, NoColoursAndNoBarIntoAPipe) {
