@@ -173,8 +173,8 @@ INSTANTIATE_TEST_SUITE_P(Examples, Recompute, testing::ValuesIn(every_example())
 
 class RecomputeTable : public ProgramTest {};
 
-// But those without a number or choice.
-TEST_F(RecomputeTable, HasEveryTypeOfTheExamplesWithANumberOrChoiceIsChanged) {
+// The others have nothing but names, rules and keys to change.
+TEST_F(RecomputeTable, HasEveryTypeOfTheExamplesWithANumberOrChoice) {
   const auto reference = nlohmann::json::parse(run({"nodes", "--json"}).out)["nodes"];
   Names missing;
   for (const auto& file : every_example()) {
