@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "graph/file/parse_json.h"
 #include "graph/param.h"
@@ -232,9 +234,13 @@ std::optional<Json> frames_with_colon(std::string_view text) {
   if (colon == std::string_view::npos || text.find_first_not_of("0123456789:") != std::string_view::npos ||
       text.find(':', colon + 1) != std::string_view::npos || text.size() == 1)
     return {};
-  const auto frame = [](std::string_view digits) { return Json(std::stod(std::string(digits))); };
   const std::string_view start = text.substr(0, colon), end = text.substr(colon + 1);
-  return Json(Json::Array{start.empty() ? Json(0) : frame(start), end.empty() ? Json() : frame(end)});
+  double frames[2] = {};
+  for (const auto& [digits, frame] : {std::pair{start, &frames[0]}, std::pair{end, &frames[1]}})
+    if (!digits.empty() &&
+        std::from_chars(digits.data(), digits.data() + digits.size(), *frame).ec != std::errc())
+      return {};  // more than a number can be: what is wanted here is said as of any other text
+  return Json(Json::Array{frames[0], end.empty() ? Json() : Json(frames[1])});
 }
 
 }  // namespace

@@ -14,6 +14,14 @@
 #include "graph/cache/entry.h"
 
 namespace kinegraph {
+namespace {
+
+// What a full cache is brought down to, so that it isn't full again at the next entry.
+std::uint64_t kept_by(std::uint64_t limit) {
+  return limit - limit / 10;
+}
+
+}  // namespace
 
 struct DiskCache::State {
   State(std::string path, std::uint64_t bytes, const Registry& types)
@@ -50,7 +58,7 @@ struct DiskCache::State {
       measured = true;
     }
     auto now = stat(folder);
-    if (now.bytes > limit) now = collect(folder, limit - limit / 10);
+    if (now.bytes > limit) now = collect(folder, kept_by(limit));
     std::lock_guard lock(mutex);
     held = now.bytes;
   }
@@ -109,6 +117,13 @@ void DiskCache::put(const Key& key, const Cached& entry, const GiveUp& give_up) 
   if (!over && contains(key)) return;
   try {
     const auto bytes = encode_entry(key, entry, give_up);
+    if (state_->limit != 0 && bytes.size() > kept_by(state_->limit)) {
+      // It would push out everything else, and then go itself.
+      state_->warn(warning("cache-limit", "a result of " + std::to_string(bytes.size()) +
+                                              " bytes is larger than the cache may hold, and isn't kept")
+                       .hinting("give a larger --cache-limit"));
+      return;
+    }
     const auto why = write_entry_file(entry_path(state_->folder, key), bytes, give_up);
     if (!why) {
       {

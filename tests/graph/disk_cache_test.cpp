@@ -156,6 +156,20 @@ TEST_F(DiskCacheTest, StaysWithinItsLimitAndDropsTheOldestUse) {
   EXPECT_TRUE(cache.contains(key(29)));
 }
 
+TEST_F(DiskCacheTest, AnEntryAboveTheLimitPushesNothingOut) {
+  DiskCache large(place, 0, registry);
+  large.put(key(1), numbers(1));
+  const std::uint64_t one = DiskCache::stat(place).bytes;
+  DiskCache cache(place, one, registry);
+  cache.put(key(2), numbers(2));
+  EXPECT_TRUE(cache.contains(key(1)));
+  EXPECT_FALSE(cache.contains(key(2)));
+  const Diagnostics warnings = cache.take_warnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].code, "cache-limit");
+  EXPECT_NE(warnings[0].hint, "");
+}
+
 TEST_F(DiskCacheTest, CollectRemovesOldLeftoversAndLeavesYoungOnes) {
   DiskCache cache(place, 0, registry);
   cache.put(key(1), numbers(1));

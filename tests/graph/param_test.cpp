@@ -106,6 +106,7 @@ TEST(ParseValue, TakesJsonOrBareText) {
   EXPECT_EQ(parse_value(unit_of({{"m", ""}}), "0.01"), Json(0.01));
   EXPECT_EQ(parse_value(unit_of({{"m", ""}}), "m"), Json("m"));
   EXPECT_EQ(parse_value(range(), "10:200"), Json(Json::Array{10, 200}));
+  EXPECT_THROW(parse_value(range(), std::string(400, '9') + ":5"), Failure);
   EXPECT_EQ(parse_value(range(), "10:"), Json(Json::Array{10, nullptr}));
   EXPECT_EQ(parse_value(range(), "[1, 2]"), Json(Json::Array{1, 2}));
   EXPECT_EQ(parse_value(list(number(0)), "[1, 2]"), Json(Json::Array{1, 2}));

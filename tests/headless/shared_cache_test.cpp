@@ -152,6 +152,7 @@ TEST_F(SharedCache, ALimitHoldsWhileManyWrite) {
     if (file.starts_with("cache/") && std::filesystem::is_regular_file(path(file)))
       bytes += std::filesystem::file_size(path(file));
   EXPECT_LE(bytes, 1u << 20);
+  EXPECT_GT(bytes, 1u << 19) << "a limit is no reason to keep nothing";
   expect_whole_cache();
 }
 
