@@ -341,7 +341,8 @@ TEST_F(Editing, AThousandRandomEditsOfEveryKindUndoneGiveTheSameBytes) {
   RandomEdits edits(1, registry_);
   History history;
   std::vector<std::string> states{write_document(document, registry_)};
-  // New nodes' names end in letters that no seed chooses, so what can be done to the document varies a little.
+  // New nodes' names end in letters that no seed chooses, so what can be done to the document varies a
+  // little.
   for (int i = 0; i < 1000 || (edits.fewest() < 10 && i < 5000); ++i) {
     Edit edit = edits.next(document);
     apply(document, edit);
