@@ -34,9 +34,10 @@ void SymmetricSums(const double* HWY_RESTRICT middle, std::size_t count, const d
     hn::StoreU(hn::Add(e, hn::Mul(weight, hn::LoadU(d, middle + i + 3 * n))), d, out + i + 3 * n);
   }
   for (; i < count; ++i) {
+    const double* here = middle + i;
     double sum = 0;
-    for (std::size_t k = radius; k > 0; --k) sum += weights[k] * (middle[i - k] + middle[i + k]);
-    out[i] = sum + weights[0] * middle[i];
+    for (std::size_t k = radius; k > 0; --k) sum += weights[k] * (*(here - k) + here[k]);
+    out[i] = sum + weights[0] * *here;
   }
 }
 
