@@ -227,8 +227,8 @@ NumberRow::NumberRow(std::size_t count)
       points_(count + row_room),
       ends_(count + row_room),
       odd_ones_(count + row_room),
-      whole_(count + HWY_MAX_BYTES / 8),
-      part_(count + HWY_MAX_BYTES / 8),
+      whole_(count + row_room),
+      part_(count + row_room),
       odd_(count + row_room) {}
 
 const char* NumberRow::read(const char* line, const char* end, double* out) {
