@@ -380,7 +380,7 @@ TEST(PinNode, SaysWhichContactsHoldNothing) {
 
 TEST(Pin, StandsBetweenHeelAndBallOfAFootWithoutToes) {
   Alone work;
-  const Motion walk = gait("walk", 1);
+  const Motion walk = gait("walk", 2);
   Contacts contacts = detect_contacts(walk, {}, work);
   for (FootPoint& point : contacts.points) {
     point.joint_name = point.foot;
