@@ -3,8 +3,48 @@
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace kinegraph {
+
+Json::Json(const Json& other)
+    : place(other.place),
+      key_place(other.key_place),
+      kind_(other.kind_),
+      boolean_(other.boolean_),
+      number_(other.number_),
+      text_(other.text_),
+      array_(other.array_ ? std::make_unique<Array>(*other.array_) : nullptr),
+      object_(other.object_ ? std::make_unique<Object>(*other.object_) : nullptr) {}
+
+Json::Json(Json&& other) noexcept
+    : place(other.place),
+      key_place(other.key_place),
+      kind_(std::exchange(other.kind_, Kind::null)),
+      boolean_(other.boolean_),
+      number_(other.number_),
+      text_(std::move(other.text_)),
+      array_(std::move(other.array_)),
+      object_(std::move(other.object_)) {}
+
+Json& Json::operator=(const Json& other) {
+  if (this != &other) *this = Json(other);
+  return *this;
+}
+
+// What is given may lie inside what is there, so that goes last.
+Json& Json::operator=(Json&& other) noexcept {
+  Json taken(std::move(other));
+  place = taken.place;
+  key_place = taken.key_place;
+  kind_ = taken.kind_;
+  boolean_ = taken.boolean_;
+  number_ = taken.number_;
+  text_.swap(taken.text_);
+  array_.swap(taken.array_);
+  object_.swap(taken.object_);
+  return *this;
+}
 
 Json Json::number_as_read(double value, std::string spelling) {
   Json json(value);
@@ -32,25 +72,25 @@ const std::string& Json::string() const {
 }
 const Json::Array& Json::array() const {
   expect(is_array(), kind_, "a list");
-  return array_;
+  return *array_;
 }
 Json::Array& Json::array() {
   expect(is_array(), kind_, "a list");
-  return array_;
+  return *array_;
 }
 const Json::Object& Json::object() const {
   expect(is_object(), kind_, "an object");
-  return object_;
+  return *object_;
 }
 Json::Object& Json::object() {
   expect(is_object(), kind_, "an object");
-  return object_;
+  return *object_;
 }
 
 const Json* Json::find(std::string_view key) const {
   if (!is_object()) return nullptr;
-  const auto found = object_.find(key);
-  return found == object_.end() ? nullptr : &found->second;
+  const auto found = object_->find(key);
+  return found == object_->end() ? nullptr : &found->second;
 }
 
 bool Json::operator==(const Json& other) const {
@@ -65,9 +105,9 @@ bool Json::operator==(const Json& other) const {
     case Kind::string:
       return text_ == other.text_;
     case Kind::array:
-      return array_ == other.array_;
+      return *array_ == *other.array_;
     case Kind::object:
-      return object_ == other.object_;
+      return *object_ == *other.object_;
   }
   return false;
 }

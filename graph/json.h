@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,8 +32,13 @@ class Json {
   Json(std::string value) : kind_(Kind::string), text_(std::move(value)) {}
   Json(std::string_view value) : Json(std::string(value)) {}
   Json(const char* value) : Json(std::string(value)) {}
-  Json(Array value) : kind_(Kind::array), array_(std::move(value)) {}
-  Json(Object value) : kind_(Kind::object), object_(std::move(value)) {}
+  Json(Array value) : kind_(Kind::array), array_(std::make_unique<Array>(std::move(value))) {}
+  Json(Object value) : kind_(Kind::object), object_(std::make_unique<Object>(std::move(value))) {}
+  Json(const Json& other);
+  Json(Json&& other) noexcept;  // leaves null
+  Json& operator=(const Json& other);
+  Json& operator=(Json&& other) noexcept;
+  ~Json() = default;
   // A number read from a text: `spelling` is how it stood there.
   static Json number_as_read(double value, std::string spelling);
 
@@ -47,7 +53,9 @@ class Json {
   // The caller has checked the kind; asking for another throws std::logic_error.
   bool boolean() const;
   double number() const;
-  const std::string& spelling() const { return text_; }  // of a number as read; empty when made by the program
+  const std::string& spelling() const {
+    return text_;
+  }  // of a number as read; empty when made by the program
   const std::string& string() const;
   const Array& array() const;
   Array& array();
@@ -67,18 +75,20 @@ class Json {
   bool boolean_ = false;
   double number_ = 0;
   std::string text_;  // a string's text, or a number's spelling
-  Array array_;
-  Object object_;
+  // Elsewhere, so that values are small: graphs hold many and most are a word or a number.
+  std::unique_ptr<Array> array_;    // of an array, never null
+  std::unique_ptr<Object> object_;  // of an object, never null
 };
 
-const char* name_of(Json::Kind kind);  // "null", "true or false", "a number", "a string", "a list", "an object"
+const char* name_of(
+    Json::Kind kind);  // "null", "true or false", "a number", "a string", "a list", "an object"
 
 // The shortest decimal that reads back the same double; -0 as "0". The value is finite.
 std::string shortest_number(double value);
 // A string with quotes and the escapes that JSON asks for; everything else stays UTF-8.
 std::string in_quotes(std::string_view text);
-// One line, no spaces but after ':' and ',': `{"a": 1, "b": [2, 3]}`. For messages, reports and lists in a graph file.
-// `as_read`: numbers stand as they were spelled.
+// One line, no spaces but after ':' and ',': `{"a": 1, "b": [2, 3]}`. For messages, reports and lists in a
+// graph file. `as_read`: numbers stand as they were spelled.
 std::string compact(const Json& value, bool as_read = false);
 // Two spaces, every member and element on a line of its own. For reports and JSON that others read.
 std::string indented(const Json& value);

@@ -121,6 +121,9 @@ Json completed(const ParamType& type, const Json& value) {
 bool is_default(const Param& param, const Json& value) {
   if (!param.fallback) return false;
   if (value == *param.fallback) return true;
+  // Only fields that were left out are filled in: the kind stays, and the length of a list.
+  if (value.kind() != param.fallback->kind()) return false;
+  if (value.is_array() && value.array().size() != param.fallback->array().size()) return false;
   const bool structured = value.is_array() || value.is_object();
   return structured && check(param, value, "").empty() &&
          completed(param, value) == completed(param, *param.fallback);

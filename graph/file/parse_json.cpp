@@ -3,59 +3,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
-#include <memory>
-#include <nlohmann/json.hpp>
+#include <cstring>
+
+#include "graph/file/json_mistake.h"
 
 namespace kinegraph {
 
 namespace {
-
-bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
-bool is_number_character(char c) {
-  return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == 'e' || c == 'E';
-}
-
-// A cursor that knows its line and column; it only goes forward, so that one long line costs no more than
-// many.
-class Cursor {
- public:
-  explicit Cursor(std::string_view text) : text_(text) {}
-  std::size_t offset() const { return offset_; }
-  Place place() const { return place_; }
-  bool at_end() const { return offset_ >= text_.size(); }
-  char peek() const { return at_end() ? '\0' : text_[offset_]; }
-  std::string_view rest() const { return text_.substr(offset_); }
-  void advance() {
-    const char c = text_[offset_++];
-    if (c == '\n')
-      place_ = {place_.line + 1, 1};
-    else if (!at_end() && (static_cast<unsigned char>(text_[offset_]) & 0xC0) == 0x80)
-      return;  // the next byte continues this character
-    else
-      ++place_.column;
-  }
-  void advance_to(std::size_t offset) {
-    while (offset_ < offset && !at_end()) advance();
-  }
-  void skip_space() {
-    while (!at_end() && is_space(peek())) advance();
-  }
-
- private:
-  std::string_view text_;
-  std::size_t offset_ = 0;
-  Place place_{1, 1};
-};
 
 // The offset of the first byte that isn't UTF-8 (RFC 3629: no overlong forms, no surrogates), or npos.
 std::size_t first_bad_utf8(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const auto continues = [&](std::size_t i) { return (byte(i) & 0xC0) == 0x80; };
   for (std::size_t i = 0; i < text.size();) {
+    std::uint64_t eight = 0;
+    if (i + sizeof eight <= text.size()) {  // most of a graph is ASCII
+      std::memcpy(&eight, text.data() + i, sizeof eight);
+      if ((eight & 0x8080808080808080u) == 0) {
+        i += sizeof eight;
+        continue;
+      }
+    }
     const unsigned c = byte(i), next = byte(i + 1);
     if (c < 0x80) {
       i += 1;
@@ -95,277 +64,260 @@ void find_conflict_markers(std::string_view text, const std::string& file, Diagn
   }
 }
 
-// Receives nlohmann's events and builds a Json. The library gives no positions; since its events come in the
-// text's order, each token is found by walking on from the end of the one before.
-class Builder : public nlohmann::json_sax<nlohmann::json> {
+// Whether a number too large or too small for a double is too large: by the place of its first digit that
+// isn't 0.
+bool is_beyond(std::string_view token) {
+  const std::size_t e = std::min(token.find_first_of("eE"), token.size());
+  const std::string_view digits = token.substr(0, e);
+  const std::size_t first = digits.find_first_of("123456789");
+  if (first == std::string_view::npos) return false;
+  const auto point = static_cast<double>(std::min(digits.find('.'), digits.size()));
+  double exponent = 0;  // no int holds what people may write there
+  const bool negative = e + 1 < token.size() && token[e + 1] == '-';
+  for (const char c : token.substr(std::min(e + 1, token.size())))
+    if (c >= '0' && c <= '9') exponent = 10 * exponent + (c - '0');
+  return point - static_cast<double>(first) + (negative ? -exponent : exponent) > 0;
+}
+
+// One walk over the text, straight into the values.
+class Parser {
  public:
-  Builder(std::string_view text, const std::string& file, Diagnostics& problems)
-      : text_(text), file_(file), problems_(problems), cursor_(text) {}
+  Parser(std::string_view text, const std::string& file, Diagnostics& problems)
+      : text_(text), file_(file), problems_(problems) {}
 
-  bool null() override { return scalar(Json(), 4); }
-  bool boolean(bool value) override { return scalar(Json(value), value ? 4 : 5); }
-  bool number_integer(number_integer_t) override { return number(); }
-  bool number_unsigned(number_unsigned_t) override { return number(); }
-  bool number_float(number_float_t, const string_t&) override { return number(); }
-  bool string(string_t& value) override {
-    to_token();
-    const Place place = cursor_.place();
-    skip_string();
-    put(Json(std::move(value)), place);
-    return true;
+  bool whole(Json& result) {
+    if (!value(result)) return false;
+    skip_space();
+    return at_ == text_.size() || fail(Wanted::end);
   }
-  bool binary(binary_t&) override { return false; }
-  bool start_object(std::size_t) override { return open(Json(Json::Object{})); }
-  bool start_array(std::size_t) override { return open(Json(Json::Array{})); }
-  bool end_object() override { return close(); }
-  bool end_array() override { return close(); }
-  bool key(string_t& value) override {
-    to_token();
-    key_place_ = cursor_.place();
-    skip_string();
-    key_ = std::move(value);
-    return true;
-  }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& exception) override {
-    explain(exception.what());
-    return false;
-  }
-
-  Json take() { return std::move(root_); }
 
  private:
-  void to_token() {
-    while (!cursor_.at_end() && (is_space(cursor_.peek()) || cursor_.peek() == ',' || cursor_.peek() == ':'))
-      cursor_.advance();
+  // Tells of what stands behind the last token. False, for the caller to return.
+  bool fail(Wanted wanted) {
+    problems_.push_back(json_mistake(text_, token_end_, wanted, depth_ > 0));
+    problems_.back().file = file_;
+    return false;
   }
-  void skip_string() {
-    cursor_.advance();
-    while (!cursor_.at_end() && cursor_.peek() != '"') {
-      if (cursor_.peek() == '\\') cursor_.advance();
-      cursor_.advance();
-    }
-    if (!cursor_.at_end()) cursor_.advance();
-  }
-  std::string_view number_token() const {
-    const std::string_view rest = cursor_.rest();
-    std::size_t length = 0;
-    while (length < rest.size() && is_number_character(rest[length])) ++length;
-    return rest.substr(0, length);
-  }
-  bool number() {
-    to_token();
-    const std::string_view token = number_token();
-    // The library takes the 0 of 012, or the 1 of 1-2, for a whole number; nobody meant that.
-    const std::size_t digit = token.starts_with('-') ? 1 : 0;
-    const bool leading_zero =
-        token.size() > digit + 1 && token[digit] == '0' && token[digit + 1] >= '0' && token[digit + 1] <= '9';
-    double value = 0;
-    const auto end = std::from_chars(token.data(), token.data() + token.size(), value).ptr;
-    if (leading_zero || end != token.data() + token.size()) {
-      bad_number(token);
-      return false;
-    }
-    return scalar(Json::number_as_read(value, std::string(token)), token.size());
-  }
-  void bad_number(std::string_view token) {
-    problem(error("bad-number", fmt::format("{} isn't a number as JSON spells it", token))
-                .hinting("such as 0.5, -3 or 1e-6"),
-            cursor_.place());
-  }
-  bool scalar(Json value, std::size_t length) {
-    to_token();
-    const Place place = cursor_.place();
-    cursor_.advance_to(cursor_.offset() + length);
-    put(std::move(value), place);
-    return true;
-  }
-  bool open(Json container) {
-    to_token();
-    const Place place = cursor_.place();
-    if (static_cast<int>(open_.size()) == deepest_json) {
-      problem(error("too-deep", fmt::format("more than {} levels of lists and objects", deepest_json))
-                  .hinting("no graph needs so many; is a bracket left open?"),
-              place);
-      return false;
-    }
-    cursor_.advance();
-    open_.push_back(put(std::move(container), place));
-    return true;
-  }
-  bool close() {
-    to_token();
-    cursor_.advance();
-    open_.pop_back();
-    return true;
-  }
-
-  // Puts a value where it belongs and returns where it stands. That stays valid while it is open: its parent
-  // grows only after it is closed.
-  Json* put(Json value, Place place) {
-    value.place = place;
-    if (open_.empty()) {
-      root_ = std::move(value);
-      return &root_;
-    }
-    Json& parent = *open_.back();
-    if (parent.is_array()) return &parent.array().emplace_back(std::move(value));
-    value.key_place = key_place_;
-    // Canonical files hold their keys in order, so the end is the likeliest place.
-    const std::size_t members = parent.object().size();
-    const auto member = parent.object().try_emplace(parent.object().end(), key_);
-    if (parent.object().size() == members) {
-      problem(error("duplicate-key", fmt::format("{} stands here a second time", in_quotes(key_)))
-                  .hinting(fmt::format("the first is in line {}; keep one", member->second.key_place.line)),
-              key_place_);
-      return duplicates_.emplace_back(std::make_unique<Json>(std::move(value))).get();
-    }
-    member->second = std::move(value);
-    return &member->second;
-  }
-
   void problem(Diagnostic diagnostic, Place place) {
     problems_.push_back(std::move(diagnostic).in_file(file_, place));
   }
 
-  // Says in a person's words what stands where the library stopped.
-  void explain(std::string_view message) {
-    cursor_.skip_space();
-    if (cursor_.peek() == ',') {
-      const Place comma = cursor_.place();
-      cursor_.advance();
-      cursor_.skip_space();
-      if (cursor_.peek() == '}' || cursor_.peek() == ']')
-        return problem(error("trailing-comma", "a comma with nothing after it").hinting("remove it"), comma);
-    } else if (cursor_.peek() == ':') {
-      cursor_.advance();
-      cursor_.skip_space();
-    }
-    const Place place = cursor_.place();
-    const std::string_view rest = cursor_.rest();
-    if (rest.empty())
-      return problem(
-          error("syntax", text_.empty() ? "the file is empty" : "the file ends too early")
-              .hinting(open_.empty() ? R"(the least a graph holds is {"format": "kinegraph", "schema": 1})"
-                                     : "a } or ] is missing"),
-          place);
-    if (rest.starts_with("//") || rest.starts_with("/*") || rest.starts_with("#"))
-      return problem(error("comment", "JSON has no comments").hinting("a node's \"note\" holds text"), place);
-    for (const char* word :
-         {"NaN", "nan", "Infinity", "-Infinity", "+Infinity", "inf", "-inf", "Inf", "-NaN"})
-      if (rest.starts_with(word))
-        return problem(error("not-finite", fmt::format("{} is no number a graph can hold", word))
-                           .hinting("leave the parameter out for its default"),
-                       place);
-    if (rest.front() == '\'')
-      return problem(
-          error("syntax", "a string stands in double quotes, not in single").hinting(R"(write " for each ')"),
-          place);
-    if (rest.front() == '"') {
-      if (explain_string()) return;
-    } else if (is_number_character(rest.front())) {
-      const std::string token(number_token());
-      if (message.find("out_of_range") != std::string_view::npos)
-        return problem(error("not-finite", fmt::format("{} is too large for a number", token))
-                           .hinting("the largest is about 1.8e308"),
-                       place);
-      if (message.find("invalid number") != std::string_view::npos || rest.front() == '+' ||
-          rest.front() == '.')
-        return bad_number(token);
-    }
-    problem(error("syntax", fmt::format("{} doesn't belong here", word_at(rest))).hinting(belongs(message)),
-            place);
-  }
-  // As much of what stands there as is told: a word, a whole short string, or one sign.
-  static std::string_view word_at(std::string_view rest) {
-    constexpr std::size_t longest = 24;
-    std::size_t length = 1;
-    if (rest.front() == '"') {
-      const std::size_t end = rest.find('"', 1);
-      if (end != std::string_view::npos && end < longest) length = end + 1;
-    } else {
-      const auto is_word = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.';
-      };
-      for (std::size_t i = 0; i < std::min(rest.size(), longest) && is_word(rest[i]); ++i) length = i + 1;
-    }
-    while (length < rest.size() && (static_cast<unsigned char>(rest[length]) & 0xC0) == 0x80) ++length;
-    return rest.substr(0, length);
-  }
-  // What the library was waiting for, as its message ends.
-  static std::string belongs(std::string_view message) {
-    const auto waits_for = [&](std::string_view what) {
-      const std::size_t at = message.rfind("expected ");
-      return at != std::string_view::npos && message.substr(at + 9).starts_with(what);
-    };
-    if (waits_for("end of input"))
-      return "the graph ends before it: remove what follows, or a bracket closes too early";
-    if (waits_for("string literal")) return "a name in double quotes belongs here";
-    if (waits_for("':'")) return "a : belongs between a name and its value";
-    if (waits_for("'}'")) return "a , before the next member, or a } is missing";
-    if (waits_for("']'")) return "a , before the next element, or a ] is missing";
-    return "a value belongs here: a string in double quotes, a number, true, false, null, a list or an "
-           "object";
-  }
-  // A string that never ends, or holds what it must not. False: it is whole, so it only stands in the wrong
-  // place.
-  bool explain_string() {
-    const Place start = cursor_.place();
-    cursor_.advance();
-    for (; !cursor_.at_end() && cursor_.peek() != '"'; cursor_.advance()) {
-      if (static_cast<unsigned char>(cursor_.peek()) < 0x20) {
-        problem(error("syntax", cursor_.peek() == '\n' ? "a string that doesn't end in its line"
-                                                       : "a control character inside a string")
-                    .hinting(R"(write \n for a line break, \t for a tab)"),
-                cursor_.peek() == '\n' ? start : cursor_.place());
-        return true;
+  char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+  Place place() const { return {line_, static_cast<int>(at_ - line_start_) + 1}; }
+  void skip_space() {
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (c == '\n') {
+        ++line_;
+        line_start_ = at_ + 1;
+      } else if (c != ' ' && c != '\t' && c != '\r') {
+        return;
       }
-      if (cursor_.peek() != '\\') continue;
-      const Place escape = cursor_.place();
-      cursor_.advance();
-      const std::string_view rest = cursor_.rest();
-      const bool unicode =
-          rest.starts_with("u") && rest.size() > 4 &&
-          rest.substr(1, 4).find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
-      const bool surrogate = unicode && (rest[1] == 'd' || rest[1] == 'D') && rest[2] >= '8';
-      if (rest.empty() ||
-          (std::string_view("\"\\/bfnrt").find(rest.front()) == std::string_view::npos && !unicode) ||
-          (surrogate && !is_pair(rest))) {
-        problem(error("syntax", fmt::format("\\{} is no escape of JSON", rest.substr(0, 1)))
-                    .hinting(R"(a backslash itself is \\; paths use forward slashes)"),
-                escape);
-        return true;
-      }
-      if (surrogate) cursor_.advance_to(cursor_.offset() + 6);
-      if (cursor_.at_end()) break;
     }
-    if (!cursor_.at_end()) return false;
-    problem(error("syntax", "a string that doesn't end").hinting("a \" is missing"), start);
+  }
+  void end_token() { token_end_ = at_; }
+
+  bool value(Json& into) {
+    skip_space();
+    const Place here = place();
+    const Place key_place = into.key_place;
+    bool good = false;
+    switch (peek()) {
+      case '{':
+        into = Json(Json::Object{});
+        good = enter(here) && object(into.object());
+        break;
+      case '[':
+        into = Json(Json::Array{});
+        good = enter(here) && array(into.array());
+        break;
+      case '"': {
+        std::string text;
+        good = string(text) || fail(Wanted::value);
+        into = Json(std::move(text));
+        break;
+      }
+      case 't':
+        good = word("true");
+        into = Json(true);
+        break;
+      case 'f':
+        good = word("false");
+        into = Json(false);
+        break;
+      case 'n':
+        good = word("null");
+        into = Json();
+        break;
+      default:
+        good = number(into);
+    }
+    into.place = here;
+    into.key_place = key_place;
+    return good;
+  }
+
+  bool enter(Place here) {
+    if (depth_ == deepest_json) {
+      problem(error("too-deep", fmt::format("more than {} levels of lists and objects", deepest_json))
+                  .hinting("no graph needs so many; is a bracket left open?"),
+              here);
+      return false;
+    }
+    ++depth_;
+    ++at_;
+    end_token();
+    skip_space();
     return true;
   }
-  static bool is_pair(std::string_view rest) {  // uD8xx\uDCxx
-    const auto is_one_of = [](char c, std::string_view set) { return set.find(c) != std::string_view::npos; };
-    return rest.size() > 10 && is_one_of(rest[2], "89abAB") && rest[5] == '\\' && rest[6] == 'u' &&
-           is_one_of(rest[7], "dD") && is_one_of(rest[8], "cCdDeEfF");
+  bool leave() {
+    --depth_;
+    ++at_;
+    end_token();
+    return true;
+  }
+
+  bool object(Json::Object& members) {
+    if (peek() == '}') return leave();
+    while (true) {
+      skip_space();
+      const Place here = place();
+      std::string name;
+      if (peek() != '"' || !string(name)) return fail(Wanted::name);
+      skip_space();
+      if (peek() != ':') return fail(Wanted::colon);
+      ++at_;
+      // Canonical files hold their keys in order, so the end is the likeliest place.
+      const std::size_t before = members.size();
+      const auto member = members.try_emplace(members.end(), std::move(name));
+      if (members.size() > before) {
+        member->second.key_place = here;
+        if (!value(member->second)) return false;
+      } else {
+        problem(error("duplicate-key", fmt::format("{} stands here a second time", in_quotes(member->first)))
+                    .hinting(fmt::format("the first is in line {}; keep one", member->second.key_place.line)),
+                here);
+        Json ignored;
+        if (!value(ignored)) return false;
+      }
+      skip_space();
+      if (peek() == '}') return leave();
+      if (peek() != ',') return fail(Wanted::member_end);
+      ++at_;
+    }
+  }
+
+  bool array(Json::Array& elements) {
+    if (peek() == ']') return leave();
+    while (true) {
+      if (!value(elements.emplace_back())) return false;
+      skip_space();
+      if (peek() == ']') return leave();
+      if (peek() != ',') return fail(Wanted::element_end);
+      ++at_;
+    }
+  }
+
+  bool word(std::string_view word) {
+    if (!text_.substr(at_).starts_with(word)) return fail(Wanted::value);
+    at_ += word.size();
+    end_token();
+    return true;
+  }
+
+  bool number(Json& into) {
+    const std::string_view token = number_token(text_, at_);
+    if (!is_json_number(token)) return fail(Wanted::value);
+    double number = 0;
+    const auto read = std::from_chars(token.data(), token.data() + token.size(), number);
+    if (read.ec == std::errc::result_out_of_range && is_beyond(token)) return fail(Wanted::value);
+    into = Json::number_as_read(number, std::string(token));
+    at_ += token.size();
+    end_token();
+    return true;
+  }
+
+  // False where it is none: then nothing is taken, and fail() finds out why.
+  bool string(std::string& out) {
+    const std::size_t start = at_, line_start = line_start_;
+    std::size_t i = at_ + 1;
+    for (std::size_t plain = i;; plain = i) {
+      while (i < text_.size() && text_[i] != '"' && text_[i] != '\\') {
+        const auto c = static_cast<unsigned char>(text_[i]);
+        if (c < 0x20) break;
+        line_start_ += (c & 0xC0) == 0x80;  // columns count characters
+        ++i;
+      }
+      out.append(text_, plain, i - plain);
+      if (i < text_.size() && text_[i] == '"') break;
+      if (i >= text_.size() || text_[i] != '\\' || !escape(i, out)) {
+        at_ = start;
+        line_start_ = line_start;
+        return false;
+      }
+    }
+    at_ = i + 1;
+    end_token();
+    return true;
+  }
+
+  // The escape at `i`, which goes past it.
+  bool escape(std::size_t& i, std::string& out) {
+    static constexpr std::string_view names = "\"\\/bfnrt", meant = "\"\\/\b\f\n\r\t";
+    const char name = i + 1 < text_.size() ? text_[i + 1] : '\0';
+    if (const std::size_t known = names.find(name); known != std::string_view::npos) {
+      out += meant[known];
+      i += 2;
+      return true;
+    }
+    unsigned code = 0;
+    if (!unit(i, code) || (code >= 0xDC00 && code < 0xE000)) return false;
+    if (code >= 0xD800 && code < 0xDC00) {
+      unsigned low = 0;
+      if (!unit(i, low) || low < 0xDC00 || low >= 0xE000) return false;
+      code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
+    }
+    const auto put = [&](unsigned byte) { out += static_cast<char>(byte); };
+    if (code < 0x80) {
+      put(code);
+    } else if (code < 0x800) {
+      put(0xC0 | code >> 6);
+      put(0x80 | (code & 63));
+    } else if (code < 0x10000) {
+      put(0xE0 | code >> 12);
+      put(0x80 | (code >> 6 & 63));
+      put(0x80 | (code & 63));
+    } else {
+      put(0xF0 | code >> 18);
+      put(0x80 | (code >> 12 & 63));
+      put(0x80 | (code >> 6 & 63));
+      put(0x80 | (code & 63));
+    }
+    return true;
+  }
+  bool unit(std::size_t& i, unsigned& code) const {  // \uXXXX
+    const std::string_view rest = text_.substr(i);
+    if (rest.size() < 6 || rest[0] != '\\' || rest[1] != 'u') return false;
+    const auto read = std::from_chars(rest.data() + 2, rest.data() + 6, code, 16);
+    i += 6;
+    return read.ec == std::errc() && read.ptr == rest.data() + 6;
   }
 
   std::string_view text_;
   const std::string& file_;
   Diagnostics& problems_;
-  Cursor cursor_;
-  Json root_;
-  std::vector<Json*> open_;
-  std::vector<std::unique_ptr<Json>> duplicates_;  // values of keys that stood there already
-  std::string key_;
-  Place key_place_;
+  std::size_t at_ = 0;
+  std::size_t token_end_ = 0;
+  int line_ = 1;
+  std::size_t line_start_ = 0;  // later by every byte of the line, so far, that only continues a character
+  int depth_ = 0;
 };
 
 }  // namespace
 
 Json parse_json(std::string_view text, const std::string& file, Diagnostics& problems) {
   const auto refuse = [&](Diagnostic diagnostic, std::size_t offset) {
-    Cursor cursor(text);
-    cursor.advance_to(offset);
-    problems.push_back(std::move(diagnostic).in_file(file, cursor.place()));
+    problems.push_back(std::move(diagnostic).in_file(file, place_in(text, offset)));
     return Json();
   };
   if (text.size() > largest_json)
@@ -383,9 +335,9 @@ Json parse_json(std::string_view text, const std::string& file, Diagnostics& pro
         error("bad-utf8", fmt::format("byte 0x{:02x} isn't UTF-8", static_cast<unsigned char>(text[bad])))
             .hinting("save the file as UTF-8"),
         bad);
-  Builder builder(text, file, problems);
-  if (!nlohmann::json::sax_parse(text.begin(), text.end(), &builder)) return Json();
-  return builder.take();
+  Json result;
+  if (!Parser(text, file, problems).whole(result)) return Json();
+  return result;
 }
 
 }  // namespace kinegraph

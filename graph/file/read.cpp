@@ -19,13 +19,14 @@ std::optional<int> version_in(const Json& value) {
   return static_cast<int>(value.number());
 }
 
+// Takes the parsed text apart: what goes into the document is moved there.
 class Reader {
  public:
   Reader(std::string_view text, const std::string& file, const Registry& registry, bool migrate)
       : text_(text), file_(file), registry_(registry), migrate_(migrate) {}
 
   ReadResult read() {
-    const Json top = parse_json(text_, file_, result_.problems);
+    Json top = parse_json(text_, file_, result_.problems);
     if (top.is_null() && has_error(result_.problems)) return std::move(result_);
     if (!top.is_object()) {
       add(error("not-a-graph", fmt::format("the file holds {}", name_of(top.kind())))
@@ -57,7 +58,7 @@ class Reader {
             .hinting(fmt::format("wanted is {}", wanted)),
         value.place, node);
   }
-  const Json::Object* object_in(const Json& value, std::string_view what, const std::string& node = {}) {
+  Json::Object* object_in(Json& value, std::string_view what, const std::string& node = {}) {
     if (value.is_object()) return &value.object();
     wrong_type(value, what, "an object", node);
     return nullptr;
@@ -102,8 +103,8 @@ class Reader {
     return false;
   }
 
-  void read_top(const Json& top) {
-    for (const auto& [key, value] : top.object()) {
+  void read_top(Json& top) {
+    for (auto& [key, value] : top.object()) {
       if (key == "format" || key == "schema") continue;
       if (key == "variables")
         read_variables(value);
@@ -114,27 +115,31 @@ class Reader {
       else if (key == "ui")
         read_ui(value);
       else if (is_extra_key(key))
-        document().extras[key] = value;
+        document().extras[key] = std::move(value);
       else
         unknown_key(key, value, {"format", "schema", "variables", "nodes", "publish", "ui"}, "the file");
     }
   }
 
-  void read_variables(const Json& value) {
-    if (const auto* variables = object_in(value, "\"variables\""))
-      for (const auto& [name, variable] : *variables)
-        if (name_is_good(name, variable.key_place, "variable")) document().variables[name] = variable;
+  void read_variables(Json& value) {
+    if (auto* variables = object_in(value, "\"variables\""))
+      for (auto& [name, variable] : *variables)
+        if (name_is_good(name, variable.key_place, "variable"))
+          document().variables[name] = std::move(variable);
   }
 
-  void read_nodes(const Json& value) {
-    if (const auto* nodes = object_in(value, "\"nodes\""))
-      for (const auto& [name, node] : *nodes) {
+  void read_nodes(Json& value) {
+    auto& nodes = document().nodes;
+    if (auto* found = object_in(value, "\"nodes\""))
+      for (auto& [name, node] : *found) {
         name_is_good(name, node.key_place, "node");
-        if (object_in(node, "a node", name)) document().nodes[name] = read_node(name, node);
+        if (!object_in(node, "a node", name)) continue;
+        const Place place = node.key_place;
+        nodes.emplace_hint(nodes.end(), name, read_node(name, node))->second.place = place;
       }
   }
 
-  Node read_node(const std::string& name, const Json& json) {
+  Node read_node(const std::string& name, Json& json) {
     const Json* type_name = json.find("type");
     if (!type_name || !type_name->is_string()) {
       if (type_name)
@@ -143,7 +148,7 @@ class Reader {
         add(error("missing-key", "the node has no \"type\"")
                 .hinting("`kinegraph nodes` lists the types there are"),
             json.place, name);
-      return placed(node_from_json(json), json);
+      return node_from_json(json);
     }
     const NodeType* type = registry_.find(type_name->string());
     if (!type) {
@@ -152,7 +157,7 @@ class Reader {
               .hinting(near.empty() ? "the node is kept as it stands and can't run"
                                     : fmt::format("did you mean \"{}\"?", near)),
           type_name->place, name);
-      return placed(missing_node_from_json(json), json);
+      return missing_node_from_json(std::move(json));
     }
     int version = 1;
     if (const Json* stored = json.find("version")) {
@@ -168,15 +173,15 @@ class Reader {
                   fmt::format("{} of version {}, this program knows {}", type->name, version, type->version))
               .hinting("the node is kept as it stands and can't run; a newer Kinegraph knows it"),
           json.find("version")->place, name);
-      return placed(missing_node_from_json(json), json);
+      return missing_node_from_json(std::move(json));
     }
-    if (version == type->version) return placed(read_known_node(name, json, *type), json);
+    if (version == type->version) return read_known_node(name, json, *type);
 
     Json current = json;
     migrate_node(*type, version, current.object());
-    Node migrated = placed(read_known_node(name, current, *type), json);
+    Node migrated = read_known_node(name, current, *type);
     if (!migrate_) {
-      Node as_it_stands = placed(missing_node_from_json(json), json);
+      Node as_it_stands = missing_node_from_json(std::move(json));
       as_it_stands.older = true;
       return as_it_stands;
     }
@@ -188,16 +193,11 @@ class Reader {
     return migrated;
   }
 
-  static Node placed(Node node, const Json& json) {
-    node.place = json.key_place;
-    return node;
-  }
-
-  Node read_known_node(const std::string& name, const Json& json, const NodeType& type) {
+  Node read_known_node(const std::string& name, Json& json, const NodeType& type) {
     Node node;
     node.type = type.name;
     node.version = type.version;
-    for (const auto& [key, value] : json.object()) {
+    for (auto& [key, value] : json.object()) {
       if (key == "type" || key == "version") continue;
       if (key == "enabled") {
         if (value.is_boolean())
@@ -210,11 +210,14 @@ class Reader {
         else
           wrong_type(value, "\"note\"", "a string", name);
       } else if (key == "params") {
-        if (const auto* params = object_in(value, "\"params\"", name)) read_params(name, *params, type, node);
+        if (auto* params = object_in(value, "\"params\"", name)) {
+          node.params = std::move(*params);
+          read_params(name, type, node);
+        }
       } else if (key == "inputs") {
         if (const auto* inputs = object_in(value, "\"inputs\"", name)) read_inputs(name, *inputs, type, node);
       } else if (is_extra_key(key)) {
-        node.extras[key] = value;
+        node.extras[key] = std::move(value);
       } else {
         unknown_key(key, value, {"type", "version", "enabled", "note", "params", "inputs"}, "the node", name);
       }
@@ -222,24 +225,20 @@ class Reader {
     return node;
   }
 
-  void read_params(const std::string& name, const Json::Object& params, const NodeType& type, Node& node) {
-    for (const auto& [key, value] : params) {
-      const Param* param = type.find_param(key);
-      if (param) {
-        if (!is_default(*param, value)) node.params[key] = value;
-        continue;
-      }
-      if (type.role == Role::graph) {  // its further parameters are what the other file publishes
-        node.params[key] = value;
-        continue;
-      }
+  // Leaves those that are known and differ from their default.
+  void read_params(const std::string& name, const NodeType& type, Node& node) {
+    std::erase_if(node.params, [&](const auto& entry) {
+      const auto& [key, value] = entry;
+      if (const Param* param = type.find_param(key)) return is_default(*param, value);
+      if (type.role == Role::graph) return false;  // its further parameters are what the other file publishes
       Diagnostic problem =
           error("unknown-param", fmt::format("{} has no parameter {}", type.name, in_quotes(key)))
               .at_param(key)
               .hinting(type.find_input(key) ? "it is an input: write it under \"inputs\""
                                             : suggestion(key, type.param_names()));
       add(std::move(problem), value.key_place, name);
-    }
+      return true;
+    });
   }
 
   void read_inputs(const std::string& name, const Json::Object& inputs, const NodeType& type, Node& node) {
@@ -295,10 +294,10 @@ class Reader {
     links.push_back(std::move(*link));
   }
 
-  void read_publish(const Json& value) {
-    const auto* publish = object_in(value, "\"publish\"");
+  void read_publish(Json& value) {
+    auto* publish = object_in(value, "\"publish\"");
     if (!publish) return;
-    for (const auto& [key, part] : *publish) {
+    for (auto& [key, part] : *publish) {
       if (key == "params")
         read_targets(part, key, true, document().publish.params);
       else if (key == "inputs")
@@ -306,13 +305,13 @@ class Reader {
       else if (key == "outputs")
         read_targets(part, key, false, document().publish.outputs);
       else if (is_extra_key(key))
-        document().publish.extras[key] = part;
+        document().publish.extras[key] = std::move(part);
       else
         unknown_key(key, part, {"params", "inputs", "outputs"}, "\"publish\"");
     }
   }
 
-  void read_targets(const Json& value, const std::string& part, bool several,
+  void read_targets(Json& value, const std::string& part, bool several,
                     std::map<std::string, std::vector<Link>, std::less<>>& targets) {
     const auto* names = object_in(value, fmt::format("\"publish.{}\"", part));
     if (!names) return;
@@ -357,10 +356,10 @@ class Reader {
     }
   }
 
-  void read_ui(const Json& value) {
-    const auto* ui = object_in(value, "\"ui\"");
+  void read_ui(Json& value) {
+    auto* ui = object_in(value, "\"ui\"");
     if (!ui) return;
-    for (const auto& [key, part] : *ui) {
+    for (auto& [key, part] : *ui) {
       if (key == "nodes")
         read_ui_part(part, key, {{"pos", UiForm::point}, {"color", UiForm::text}}, document().ui.nodes);
       else if (key == "frames")
@@ -370,7 +369,7 @@ class Reader {
         read_ui_part(part, key, {{"text", UiForm::text}, {"pos", UiForm::point}, {"size", UiForm::point}},
                      document().ui.notes);
       else if (is_extra_key(key))
-        document().ui.extras[key] = part;
+        document().ui.extras[key] = std::move(part);
       else
         unknown_key(key, part, {"nodes", "frames", "notes"}, "\"ui\"");
     }
@@ -378,14 +377,14 @@ class Reader {
 
   enum class UiForm { point, text, texts };
 
-  void read_ui_part(const Json& value, const std::string& part,
+  void read_ui_part(Json& value, const std::string& part,
                     const std::vector<std::pair<std::string, UiForm>>& fields,
                     std::map<std::string, Json, std::less<>>& entries) {
-    const auto* named = object_in(value, fmt::format("\"ui.{}\"", part));
+    auto* named = object_in(value, fmt::format("\"ui.{}\"", part));
     if (!named) return;
     std::vector<std::string> known;
     for (const auto& [field, form] : fields) known.push_back(field);
-    for (const auto& [name, entry] : *named) {
+    for (auto& [name, entry] : *named) {
       const std::string where = fmt::format("ui.{}.{}", part, name);
       const bool good = name_is_good(name, entry.key_place,
                                      part == "nodes"    ? "node"
@@ -401,7 +400,7 @@ class Reader {
         else if (!is_extra_key(key))
           unknown_key(key, member, known, where);
       }
-      entries[name] = entry;
+      entries.emplace_hint(entries.end(), name, std::move(entry));
     }
   }
 
