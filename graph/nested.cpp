@@ -134,19 +134,34 @@ class Opener {
   // `given`: Graph nodes whose file comes from outside (absolute).
   void open(Document& document, const std::string& folder, const std::map<std::string, std::string>& given) {
     variables_.files.push_back(&document.variables);
+    std::map<Asked, Answer> known;
     for (auto& [name, node] : document.nodes) {
       node.nested.reset();
       const NodeType* type = node.missing ? nullptr : registry_.find(node.type);
       if (!type || type->role != Role::graph) continue;
       const auto from_outside = given.find(name);
-      node.nested = std::make_shared<const Nested>(
-          from_outside != given.end() ? opened(from_outside->second, node, *type, folder)
-                                      : opened(path_of(node, *type, folder), node, *type, folder));
+      Asked asked{from_outside != given.end() ? from_outside->second : path_of(node, *type, folder), {}};
+      asked.second = given_inside(node, asked.first, folder);
+      Answer& answer = known[asked];
+      // Nodes of one file share what it is; they count as if each had opened it, for each will be expanded.
+      if (!answer.nested || (count_ += answer.count) > most_files) {
+        const int before = count_;
+        answer.nested = std::make_shared<const Nested>(opened(asked.first, asked.second, *type));
+        answer.count = count_ - before;
+      }
+      node.nested = answer.nested;
     }
     variables_.files.pop_back();
   }
 
  private:
+  // A file, and what is given to Graph nodes inside it: among the nodes of one document that is all there is.
+  using Asked = std::pair<std::string, std::map<std::string, std::string>>;
+  struct Answer {
+    std::shared_ptr<const Nested> nested;
+    int count = 0;  // of files opened for it
+  };
+
   // "" where none is named.
   std::string path_of(const Node& node, const NodeType& type, const std::string& folder) {
     const Param* param = type.find_param("file");
@@ -159,15 +174,22 @@ class Opener {
   }
 
   // Files that the Graph node names for Graph nodes inside, by what is published.
-  std::map<std::string, std::string> given_inside(const Node& node, const Document& inside,
+  std::map<std::string, std::string> given_inside(const Node& node, const std::string& path,
                                                   const std::string& folder) {
     std::map<std::string, std::string> given;
-    for (const auto& [published, targets] : inside.publish.params) {
+    if (path.empty() || node.params.size() < 2) return given;  // "file" alone gives nothing
+    const Document* inside = nullptr;
+    try {
+      inside = &text_of(path).document;
+    } catch (const Failure&) {  // as opening it will tell
+      return given;
+    }
+    for (const auto& [published, targets] : inside->publish.params) {
       const auto stored = node.params.find(published);
       if (stored == node.params.end()) continue;
       for (const Link& target : targets) {
-        const auto inner = inside.nodes.find(target.node);
-        const NodeType* type = inner == inside.nodes.end() || inner->second.missing
+        const auto inner = inside->nodes.find(target.node);
+        const NodeType* type = inner == inside->nodes.end() || inner->second.missing
                                    ? nullptr
                                    : registry_.find(inner->second.type);
         if (!type || type->role != Role::graph || target.port != "file") continue;
@@ -180,8 +202,8 @@ class Opener {
     return given;
   }
 
-  Nested opened(const std::string& path, const Node& node, const NodeType& type,
-                const std::string& outer_folder) {
+  Nested opened(const std::string& path, const std::map<std::string, std::string>& given,
+                const NodeType& type) {
     Nested nested;
     nested.path = path;
     nested.folder = fs::path(path).parent_path().string();
@@ -221,7 +243,7 @@ class Opener {
                                  : "paths are relative to the graph file");
     }
     open_.push_back(path);
-    open(*document, nested.folder, given_inside(node, *document, outer_folder));
+    open(*document, nested.folder, given);
     open_.pop_back();
     ValidateOptions options{.file = path,
                             .folder = nested.folder,

@@ -55,32 +55,26 @@ Edit edit_between(const Document& before, const Document& after, std::string tit
 Diff diff(const Document& old, const Document& after) {
   Diff result;
   result.renames = renames(old, after);
-  const Document before = renamed(old, result.renames);
-  std::set<std::string> names;
-  for (const Document* document : {&before, &after})
-    for (const auto& [name, node] : document->nodes) names.insert(name);
-  for (const std::string& name : names) {
-    const auto was = before.nodes.find(name), is = after.nodes.find(name);
-    if (was == before.nodes.end() || is == after.nodes.end()) {
-      const Document& in = was == before.nodes.end() ? after : before;
-      add_if_changed(result.changes, before, after, whole_node(in, name));
-      continue;
-    }
-    if (was->second.type != is->second.type ||
-        was->second.missing.has_value() != is->second.missing.has_value()) {
-      result.changes.push_back({whole_node(before, name), to_json(was->second), std::nullopt});
-      result.changes.push_back({whole_node(after, name), std::nullopt, to_json(is->second)});
-      continue;
-    }
-    const auto of_node = [&](const Document& document) { return units_of_node(document, name); };
-    for (const Unit& unit : united(of_node, before, after))
-      add_if_changed(result.changes, before, after, unit);
-  }
+  Document under_new_names;
+  if (!result.renames.empty()) under_new_names = renamed(old, result.renames);
+  const Document& before = result.renames.empty() ? old : under_new_names;
+  in_step(before.nodes, after.nodes, {},
+          [&](const std::string& name, const Node* was, const Node* is, const Node*) {
+            if (!was || !is) {
+              add_if_changed(result.changes, before, after, whole_node(was ? before : after, name));
+            } else if (was->type != is->type || was->missing.has_value() != is->missing.has_value()) {
+              result.changes.push_back({whole_node(before, name), to_json(*was), std::nullopt});
+              result.changes.push_back({whole_node(after, name), std::nullopt, to_json(*is)});
+            } else if (!same(*was, *is)) {
+              const auto of_node = [&](const Document& document) { return units_of_node(document, name); };
+              for (const Unit& unit : united(of_node, before, after))
+                add_if_changed(result.changes, before, after, unit);
+            }
+          });
   for (const Unit& unit : united(units_of_file, before, after))
     add_if_changed(result.changes, before, after, unit);
-  std::vector<Change> layout;
-  for (const Unit& unit : united(units_of_ui, before, after)) add_if_changed(layout, before, after, unit);
-  result.layout = !layout.empty();
+  result.layout = before.ui.nodes != after.ui.nodes || before.ui.frames != after.ui.frames ||
+                  before.ui.notes != after.ui.notes || before.ui.extras != after.ui.extras;
   return result;
 }
 

@@ -40,19 +40,19 @@ class Merger {
   }
 
   Merge run(const std::string& our_label, const std::string& their_label) {
-    our_result_.schema = their_result_.schema = ours_.schema;
-    std::set<std::string> names;
-    for (const Document* document : {&base_, &ours_, &theirs_})
-      for (const auto& [name, node] : document->nodes) names.insert(name);
-    for (const std::string& name : names) merge_node(name);
+    result_.schema = ours_.schema;
+    in_step(base_.nodes, ours_.nodes, theirs_.nodes,
+            [&](const std::string& name, const Node* was, const Node* our, const Node* their) {
+              merge_node(name, was, our, their);
+            });
     for (const Unit& unit : united(units_of_file)) merge_unit(unit);
-    for (const Unit& unit : united(units_of_ui)) merge_ui(unit);
+    merge_ui();
     check_result();
     Merge result;
     result.conflicts = std::move(conflicts_);
-    result.text = write_document(our_result_, registry_);
+    result.text = write_document(result_, registry_);
     if (!result.conflicts.empty()) {
-      std::string their_text = write_document(their_result_, registry_);
+      std::string their_text = write_document(with_theirs(), registry_);
       std::string our_text = result.text;
       if (our_text == their_text) {  // nothing in one place is at odds: the whole of both is
         our_text = write_document(ours_, registry_);
@@ -60,7 +60,7 @@ class Merger {
       }
       result.text = conflict_text(our_text, their_text, our_label, their_label);
     }
-    result.document = std::move(our_result_);
+    result.document = std::move(result_);
     return result;
   }
 
@@ -116,34 +116,38 @@ class Merger {
     else
       document.nodes.erase(name);
   }
-  static bool equal(const Node* a, const Node* b) {
-    if (!a || !b) return a == b;
-    return a->type == b->type && a->version == b->version && a->enabled == b->enabled && a->note == b->note &&
-           a->older == b->older && a->params == b->params && a->inputs == b->inputs &&
-           a->extras == b->extras && a->missing == b->missing;
+  // Names come in order, so the end is where most belong.
+  void put_in_result(const std::string& name, const Node* node) {
+    if (node) result_.nodes.emplace_hint(result_.nodes.end(), name, *node);
   }
+  // With theirs wherever the sides conflict.
+  Document with_theirs() const {
+    Document document = result_;
+    for (const auto& [unit, value, whole_node] : their_way_) {
+      if (whole_node)
+        put(document, unit.name, *whole_node);
+      else
+        set(document, unit, value);
+    }
+    return document;
+  }
+  static bool equal(const Node* a, const Node* b) { return a && b ? same(*a, *b) : a == b; }
   // One type, and known or not on all sides that have it: then its parts can be told apart.
   static bool alike(const Node* a, const Node* b) {
     return !a || !b || (a->type == b->type && a->missing.has_value() == b->missing.has_value());
   }
 
-  void merge_node(const std::string& name) {
-    const Node *was = find(base_, name), *our = find(ours_, name), *their = find(theirs_, name);
+  void merge_node(const std::string& name, const Node* was, const Node* our, const Node* their) {
     // Most nodes are as one side left them.
-    if (const bool as_ours = equal(our, their) || equal(was, their); as_ours || equal(was, our)) {
-      put(our_result_, name, as_ours ? our : their);
-      put(their_result_, name, as_ours ? our : their);
-      return;
-    }
-    if (our && their && alike(our, their)) return merge_parts(name, alike(was, our));
+    if (const bool as_ours = equal(our, their) || equal(was, their); as_ours || equal(was, our))
+      return put_in_result(name, as_ours ? our : their);
+    if (our && their && alike(our, their)) return merge_parts(name, *our, alike(was, our));
     const Value before = whole(was), here = whole(our), there = whole(their);
     const bool changed_here = here != before, changed_there = there != before;
-    const Node* chosen = changed_here ? our : their;
-    put(our_result_, name, chosen);
-    put(their_result_, name, chosen);
+    put_in_result(name, changed_here ? our : their);
     if (!changed_here || !changed_there || here == there) return;
-    put(their_result_, name, their);
     const Unit unit{Kind::node, name, {}};
+    their_way_.push_back({unit, {}, their});
     if (our && their)
       conflict(fmt::format("{} is a {} here and a {} there", name, our->type, their->type), unit);
     else
@@ -152,10 +156,9 @@ class Merger {
                unit);
   }
 
-  void merge_parts(const std::string& name, bool with_base) {
+  void merge_parts(const std::string& name, const Node& our, bool with_base) {
+    put_in_result(name, &our);
     // The type stands first, so that its version is there before the rest.
-    our_result_.nodes[name] = *find(ours_, name);
-    their_result_.nodes[name] = *find(ours_, name);
     std::set<Unit> units;
     const std::vector<const Document*> sides = with_base
                                                    ? std::vector<const Document*>{&base_, &ours_, &theirs_}
@@ -165,21 +168,16 @@ class Merger {
     for (const Unit& unit : units) merge_unit(unit, with_base);
   }
 
-  void both(const Unit& unit, const Value& value) {
-    set(our_result_, unit, value);
-    set(their_result_, unit, value);
-  }
-
   void merge_unit(const Unit& unit, bool with_base = true) {
     const Value was = with_base ? get(base_, unit) : Value(), here = get(ours_, unit),
                 there = get(theirs_, unit);
-    if (here == there || there == was) return both(unit, here);
-    if (here == was) return both(unit, there);
+    if (here == there || there == was) return set(result_, unit, here);
+    if (here == was) return set(result_, unit, there);
     bool list_conflict = false;
     if (const auto merged = merged_inside(unit, was, here, there, list_conflict); merged && !list_conflict)
-      return both(unit, *merged);
-    set(our_result_, unit, here);
-    set(their_result_, unit, there);
+      return set(result_, unit, *merged);
+    set(result_, unit, here);
+    their_way_.push_back({unit, there, {}});
     conflict(fmt::format("{}: {} here, {} there", to_text(unit), shown(here), shown(there)), unit);
   }
 
@@ -239,11 +237,24 @@ class Merger {
     return Value(Json(std::move(merged)));
   }
 
-  void merge_ui(const Unit& unit) {
-    const Value was = get(base_, unit), here = get(ours_, unit), there = get(theirs_, unit);
-    const bool gone = unit.kind == Kind::ui_node && !our_result_.nodes.contains(unit.name) &&
-                      (base_.nodes.contains(unit.name) || theirs_.nodes.contains(unit.name));
-    if (!gone) both(unit, here == was ? there : here);
+  // Never a conflict: ours, unless only they moved it.
+  void merge_ui() {
+    using Entries = std::map<std::string, Json, std::less<>>;
+    const auto merge_part = [&](Entries Ui::*part, bool of_nodes) {
+      Entries& merged = result_.ui.*part;
+      in_step(base_.ui.*part, ours_.ui.*part, theirs_.ui.*part,
+              [&](const std::string& name, const Json* was, const Json* here, const Json* there) {
+                const bool gone = of_nodes && !result_.nodes.contains(name) &&
+                                  (base_.nodes.contains(name) || theirs_.nodes.contains(name));
+                const bool untouched = here && was ? *here == *was : here == was;
+                const Json* now = untouched ? there : here;
+                if (now && !gone) merged.emplace_hint(merged.end(), name, *now);
+              });
+    };
+    merge_part(&Ui::nodes, true);
+    merge_part(&Ui::frames, false);
+    merge_part(&Ui::notes, false);
+    merge_part(&Ui::extras, false);
   }
 
   void open_inside_of(Document& document) const {
@@ -257,7 +268,7 @@ class Merger {
 
   // What is wrong with the result and was on neither side.
   void check_result() {
-    open_inside_of(our_result_);
+    open_inside_of(result_);
     std::set<std::string> known;
     const auto text = [](const Diagnostic& problem) {
       return problem.code + '\n' + problem.node + '\n' + problem.port + '\n' + problem.param + '\n' +
@@ -269,7 +280,7 @@ class Merger {
         if (problem.severity == Severity::error) what(problem);
     };
     Diagnostics found;
-    errors(our_result_, [&](const Diagnostic& problem) { found.push_back(problem); });
+    errors(result_, [&](const Diagnostic& problem) { found.push_back(problem); });
     if (found.empty()) return;
     for (const Document* side : {&ours_, &theirs_})
       errors(*side, [&](const Diagnostic& problem) { known.insert(text(problem)); });
@@ -289,10 +300,10 @@ class Merger {
   void take_sides(const Diagnostic& problem) {
     if (problem.node.empty() || take_side(problem.node)) return;
     std::vector<std::string> near;
-    if (const Node* node = find(our_result_, problem.node))
+    if (const Node* node = find(result_, problem.node))
       for (const auto& [port, inputs] : node->inputs)
         for (const Link& link : inputs.links) near.push_back(link.node);
-    for (const auto& [name, node] : our_result_.nodes)
+    for (const auto& [name, node] : result_.nodes)
       for (const auto& [port, inputs] : node.inputs)
         for (const Link& link : inputs.links)
           if (link.node == problem.node) near.push_back(name);
@@ -308,15 +319,23 @@ class Merger {
   bool take_side(const std::string& name) {
     const Node *here = find(ours_, name), *there = find(theirs_, name);
     if (whole(here) == whole(there)) return false;
-    put(our_result_, name, here);
-    put(their_result_, name, there);
+    put(result_, name, here);
+    their_way_.push_back({{Kind::node, name, {}}, {}, there});
     return true;
   }
 
+  // Where theirs is not the result: a unit's value, or a whole node (null: none).
+  struct TheirWay {
+    Unit unit;
+    Value value;
+    std::optional<const Node*> whole_node;
+  };
+
   const Registry& registry_;
   const OpenInside& open_inside_;
-  Document base_, ours_, theirs_;       // under one set of names
-  Document our_result_, their_result_;  // the merge, with ours or theirs where they conflict
+  Document base_, ours_, theirs_;  // under one set of names
+  Document result_;                // with ours where they conflict
+  std::vector<TheirWay> their_way_;
   std::vector<MergeConflict> conflicts_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -19,14 +20,25 @@ const std::string& now(const std::string& name, const Renames& known) {
   return found == known.end() ? name : found->second;
 }
 
-// Of the nodes that the other document lacks, with the names that nodes have after the renames that are
-// known.
-Consumers consumers_in(const Document& document, const Document& other, const Renames& known) {
+using Names = std::set<std::string_view>;
+
+Names only_in(const Document& document, const Document& other) {
+  Names names;
+  auto there = other.nodes.begin();
+  for (const auto& [name, node] : document.nodes) {
+    while (there != other.nodes.end() && there->first < name) ++there;
+    if (there == other.nodes.end() || there->first != name) names.insert(name);
+  }
+  return names;
+}
+
+// Of these nodes, with the names that nodes have after the renames that are known.
+Consumers consumers_of(const Names& names, const Document& document, const Renames& known) {
   Consumers all;
   for (const auto& [name, node] : document.nodes)
     for (const auto& [port, inputs] : node.inputs)
       for (const Link& link : inputs.links)
-        if (!other.nodes.contains(link.node))
+        if (names.contains(link.node))
           all[link.node].push_back(link.port + ">" + now(name, known) + "." + port);
   return all;
 }
@@ -58,18 +70,22 @@ std::vector<Pair> pairs(const Document& before, const Document& after, const Ren
   };
   std::vector<Fresh> fresh;
   std::map<std::string, std::vector<std::size_t>> with_value;  // which of the new nodes have it
-  const Consumers consumers_before = consumers_in(before, after, known),
-                  consumers_after = consumers_in(after, before, {});
-  for (const auto& [name, node] : after.nodes) {
-    if (before.nodes.contains(name) || taken.contains(name)) continue;
+  const Names gone = only_in(before, after), added = only_in(after, before);
+  if (gone.empty() || added.empty()) return {};
+  const Consumers consumers_before = consumers_of(gone, before, known),
+                  consumers_after = consumers_of(added, after, {});
+  for (const std::string_view name_of_one : added) {
+    const auto& [name, node] = *after.nodes.find(name_of_one);
+    if (taken.contains(name)) continue;
     const Values values = values_of(name, node, consumers_after, {});
     for (const std::string& value : values) with_value[value].push_back(fresh.size());
     fresh.push_back({&name, &node.type, values.size()});
   }
   std::vector<Pair> found;
   std::vector<std::size_t> kept(fresh.size());
-  for (const auto& [name, node] : before.nodes) {
-    if (after.nodes.contains(name) || known.contains(name) || fresh.empty()) continue;
+  for (const std::string_view name_of_one : gone) {
+    const auto& [name, node] = *before.nodes.find(name_of_one);
+    if (known.contains(name) || fresh.empty()) continue;
     std::fill(kept.begin(), kept.end(), 0);
     const Values values = values_of(name, node, consumers_before, known);
     for (const std::string& value : values)

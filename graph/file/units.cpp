@@ -71,4 +71,10 @@ std::vector<Unit> units_of_ui(const Document& document) {
   return units;
 }
 
+bool same(const Node& a, const Node& b) {
+  return a.type == b.type && a.version == b.version && a.enabled == b.enabled && a.note == b.note &&
+         a.older == b.older && a.params == b.params && a.inputs == b.inputs && a.extras == b.extras &&
+         a.missing == b.missing;
+}
+
 }  // namespace kinegraph
