@@ -178,12 +178,7 @@ class Opener {
                                                   const std::string& folder) {
     std::map<std::string, std::string> given;
     if (path.empty() || node.params.size() < 2) return given;  // "file" alone gives nothing
-    const Document* inside = nullptr;
-    try {
-      inside = &text_of(path).document;
-    } catch (const Failure&) {  // as opening it will tell
-      return given;
-    }
+    const Document* inside = &found_in(path).read.document;
     for (const auto& [published, targets] : inside->publish.params) {
       const auto stored = node.params.find(published);
       if (stored == node.params.end()) continue;
@@ -225,23 +220,20 @@ class Opener {
     }
     if (open_.size() > most_levels || ++count_ > most_files)
       return refuse("too-many-graphs", "graph files lie too deep or too many inside one another", "");
-    auto document = std::make_shared<Document>();
-    try {
-      const ReadResult& read = text_of(path);
-      for (const Diagnostic& problem : read.problems)
-        if (problem.severity == Severity::error)
-          return refuse("broken-graph", fmt::format("{} can't be used: {}", shown, in_short(problem)),
-                        "`kinegraph validate` tells all that is wrong with it");
-      if (read.document.read_only)
-        return refuse("broken-graph", fmt::format("{} is of a newer schema", shown),
-                      "a newer Kinegraph can run it");
-      *document = read.document;
-    } catch (const Failure& failure) {
+    const Found& found_there = found_in(path);
+    if (found_there.failure)
       return refuse("missing-file",
-                    fmt::format("the graph file {} can't be read: {}", shown, failure.diagnostic().message),
+                    fmt::format("the graph file {} can't be read: {}", shown, found_there.failure->message),
                     is_set(path) ? "a path on the command line starts at the current folder"
                                  : "paths are relative to the graph file");
-    }
+    for (const Diagnostic& problem : found_there.read.problems)
+      if (problem.severity == Severity::error)
+        return refuse("broken-graph", fmt::format("{} can't be used: {}", shown, in_short(problem)),
+                      "`kinegraph validate` tells all that is wrong with it");
+    if (found_there.read.document.read_only)
+      return refuse("broken-graph", fmt::format("{} is of a newer schema", shown),
+                    "a newer Kinegraph can run it");
+    auto document = std::make_shared<Document>(found_there.read.document);
     open_.push_back(path);
     open(*document, nested.folder, given);
     open_.pop_back();
@@ -274,17 +266,27 @@ class Opener {
                        [&](const auto& file) { return absolute(options_.set_folder, file.second) == path; });
   }
 
-  const ReadResult& text_of(const std::string& path) {
-    if (const auto known = read_.find(path); known != read_.end()) return known->second;
-    const std::string text = options_.read(path);
-    return read_[path] = read_document(text, path, registry_);
+  // What a file holds, or why it can't be read; each is read once.
+  struct Found {
+    ReadResult read;
+    std::optional<Diagnostic> failure;
+  };
+  const Found& found_in(const std::string& path) {
+    const auto [at, fresh] = found_.try_emplace(path);
+    if (!fresh) return at->second;
+    try {
+      at->second.read = read_document(options_.read(path), path, registry_);
+    } catch (const Failure& failure) {
+      at->second.failure = failure.diagnostic();
+    }
+    return at->second;
   }
 
   const Registry& registry_;
   const NestedOptions& options_;
   Variables variables_;
   std::vector<std::string> open_;  // files, outermost first
-  std::map<std::string, ReadResult> read_;
+  std::map<std::string, Found> found_;
   int count_ = 0;
 };
 

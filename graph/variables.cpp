@@ -213,8 +213,19 @@ std::vector<std::string> variables_in(const Json& value, const ParamType& type) 
   return substitution.asked_for();
 }
 
+namespace {
+bool mentions_a_variable(const Json& value) {
+  if (value.is_string()) return value.string().find("${") != std::string::npos;
+  if (value.is_array()) return std::any_of(value.array().begin(), value.array().end(), mentions_a_variable);
+  return value.is_object() &&
+         std::any_of(value.object().begin(), value.object().end(),
+                     [](const auto& member) { return mentions_a_variable(member.second); });
+}
+}  // namespace
+
 Json substituted(const Json& value, const ParamType& type, const Variables& variables,
                  const std::string& where, Diagnostics& problems) {
+  if (!mentions_a_variable(value)) return value;
   return Substitution(variables, problems).of(value, type, where);
 }
 
