@@ -20,7 +20,12 @@ constexpr std::size_t most_frames_a_block = 64;
 class Reader {
  public:
   Reader(std::string_view text, const char* from, std::size_t channels, Work& work)
-      : text_(text), at_(from), end_(text.data() + text.size()), channels_(channels), work_(work), row_(channels) {}
+      : text_(text),
+        at_(from),
+        end_(text.data() + text.size()),
+        channels_(channels),
+        work_(work),
+        row_(channels) {}
 
   const char* at() const { return at_; }
 
@@ -170,6 +175,8 @@ BvhNumbers read_bvh_numbers(std::string_view text, const char* from, std::size_t
         fail_at(text, reader.at(), "too-few-frames",
                 fmt::format("{} frames are announced, {} are there", frames, frame + r),
                 "the file is cut short; correct the number after Frames:");
+    if (frame == 0)
+      numbers.first_frame.assign(block.begin(), block.begin() + static_cast<std::ptrdiff_t>(channels));
     std::size_t from_row = frame < first ? std::min(first - frame, count) : 0;
     std::size_t to_row = std::min(count, last > frame ? last - frame : 0);
     if (from_row < to_row)

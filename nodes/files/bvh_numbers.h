@@ -11,6 +11,7 @@ namespace kinegraph {
 struct BvhNumbers {
   // Channel after channel, `kept` values each: the frames [first, first + kept) of the file.
   std::shared_ptr<std::vector<double>> series;
+  std::vector<double> first_frame;  // the file's frame 0, kept or not; empty where it has none
 };
 
 // Reads `frames` frames of `channels` numbers from `from` on, and keeps those of [first, last). A frame is a

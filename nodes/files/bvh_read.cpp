@@ -62,54 +62,86 @@ Vec3 local_position(const JointChannels& joint, Vec3 offset, std::size_t frame) 
   return offset;
 }
 
-// Extent along the file's up axis, in its unit, of the rest pose or of a frame; End Sites included.
-double height_of(const BvhHierarchy& file, UpAxis up, const std::vector<JointChannels>* channels) {
+// How far the rest pose, or a frame (its values, in the channels' order), reaches along y and z of the file;
+// in its unit, End Sites included.
+struct Extents {
+  double y = 0, z = 0;
+};
+Extents extents_of(const BvhHierarchy& file, const double* frame) {
   std::vector<Vec3> positions(file.joints.size());
   std::vector<Quat> turns(file.joints.size());
-  double low = 0, high = 0;
-  bool any = false;
-  auto see = [&](Vec3 point) {
-    double y = y_up(point, up).y;
-    low = any ? std::min(low, y) : y;
-    high = any ? std::max(high, y) : y;
-    any = true;
+  std::vector<double> radians;
+  Vec3 low, high;
+  auto see = [&](Vec3 point, bool first) {
+    low = first ? point : Vec3{0, std::min(low.y, point.y), std::min(low.z, point.z)};
+    high = first ? point : Vec3{0, std::max(high.y, point.y), std::max(high.z, point.z)};
   };
   for (std::size_t j = 0; j < positions.size(); ++j) {
     Vec3 offset = file.joints[j].offset;
-    if (channels) {
-      const JointChannels& joint = (*channels)[j];
-      offset = local_position(joint, offset, 0);
-      std::vector<double> radians;
-      for (const double* rotation : joint.rotations) radians.push_back(rotation[0] / degrees_per_radian);
-      turns[j] = from_euler(joint.axes, radians.data());
+    std::string axes;
+    radians.clear();
+    for (const std::string& channel : file.joints[j].channels) {
+      if (!frame) break;
+      const double value = *frame++;
+      if (channel[1] == 'p') {
+        offset[channel[0] - 'X'] = value;
+      } else {
+        axes += channel[0];
+        radians.push_back(value / degrees_per_radian);
+      }
     }
+    turns[j] = from_euler(axes, radians.data());
     if (int parent = file.parents[j]; parent >= 0) {
       positions[j] = positions[parent] + rotate(turns[parent], offset);
       turns[j] = turns[parent] * turns[j];
     } else {
       positions[j] = offset;
     }
-    see(positions[j]);
+    see(positions[j], j == 0);
   }
-  for (const auto& end : file.ends) see(positions[end.joint] + rotate(turns[end.joint], end.offset));
-  return high - low;
+  for (const auto& end : file.ends) see(positions[end.joint] + rotate(turns[end.joint], end.offset), false);
+  return {high.y - low.y, high.z - low.z};
 }
 
-LengthUnit find_unit(const BvhHierarchy& file, UpAxis up, const std::vector<JointChannels>& channels,
-                     bool has_frame, const ReadOptions& options, Work& work) {
+// The longest way along links from one end of the rest pose to another, such as from a hand to a foot.
+double longest_way(const BvhHierarchy& file) {
+  std::vector<double> below(file.joints.size());  // from a joint to its farthest end
+  double longest = 0;
+  auto link = [&](int joint, double length) {
+    longest = std::max(longest, below[joint] + length);
+    below[joint] = std::max(below[joint], length);
+  };
+  for (const auto& end : file.ends) link(end.joint, norm(end.offset));
+  for (std::size_t j = file.joints.size(); j-- > 1;)
+    link(file.parents[j], norm(file.joints[j].offset) + below[j]);
+  return longest;
+}
+
+LengthUnit find_unit(const BvhHierarchy& file, UpAxis up, const std::vector<double>& first_frame,
+                     const ReadOptions& options, Work& work) {
   if (names_a_unit(options.unit)) return unit_from_param(options.unit, {});
-  double height = height_of(file, up, nullptr);
-  const char* of = "the rest pose";
-  if (has_frame) {
-    double first = height_of(file, up, &channels);
-    if (height < 0.25 * first) {  // all joints in one place, or a rig whose rest pose is no pose
-      height = first;
-      of = "the first frame";
-    }
+  const Extents rest = extents_of(file, nullptr);
+  auto upwards = [&](const Extents& of) { return up == UpAxis::y ? of.y : of.z; };
+  double height = upwards(rest);
+  std::string is = "the rest pose is {:.4g} units high";
+  // Rest poses that are no pose: all joints in one place, or every bone along one axis of its own. People who
+  // stand reach over 0.6 of the way from hand to foot, rigs of that kind up to 0.5.
+  const bool usable = !first_frame.empty() && largest_size(first_frame) <= largest_value;
+  const Extents first = usable ? extents_of(file, first_frame.data()) : rest;
+  if (upwards(first) > height && (height < 0.8 * upwards(first) || height < 0.55 * longest_way(file))) {
+    height = upwards(first);
+    is = "the first frame is {:.4g} units high";
+  }
+  // A figure that lies, most often because the file has another axis up, is as tall as it is long.
+  const double along = up == UpAxis::y ? rest.z : rest.y;
+  if (height < 0.25 * along) {
+    height = along;
+    is = up == UpAxis::y ? "the rest pose lies along Z, {:.4g} units long"
+                         : "the rest pose lies along Y, {:.4g} units long";
   }
   LengthUnit unit = unit_by_height(height);
-  work.report(info("unit-found", fmt::format("unit {}: {} is {:.4g} units high, {:.3g} m so", to_text(unit),
-                                             of, height, height * unit.metres))
+  work.report(info("unit-found", fmt::format("unit {}: {}, {:.3g} m so", to_text(unit),
+                                             fmt::format(fmt::runtime(is), height), height * unit.metres))
                   .hinting("set unit where that is wrong")
                   .at_param("unit"));
   return unit;
@@ -150,12 +182,12 @@ Motion read_bvh(std::string_view text, const ReadOptions& options, Work& work) {
   BvhHierarchy file = read_bvh_hierarchy(text, work);
   const FrameWindow window = frames_to_keep(options, file.frames);
   const std::size_t frames = window.last - window.first;
-  auto series =
-      read_bvh_numbers(text, file.numbers, file.channels, file.frames, window.first, window.last, work)
-          .series;
+  const BvhNumbers numbers =
+      read_bvh_numbers(text, file.numbers, file.channels, file.frames, window.first, window.last, work);
+  const auto& series = numbers.series;
   const auto channels = split_channels(file, *series, frames, window.first);
   const UpAxis up = options.up == "z" ? UpAxis::z : UpAxis::y;
-  const LengthUnit unit = find_unit(file, up, channels, frames > 0, options, work);
+  const LengthUnit unit = find_unit(file, up, numbers.first_frame, options, work);
 
   auto skeleton = std::make_shared<Skeleton>();
   std::vector<bool> translates(file.joints.size());

@@ -221,6 +221,46 @@ TEST(BvhRead, FindsTheUnitThatBringsThePersonNearestToItsHeight) {
   EXPECT_NEAR(read(cm, options).skeleton().ends[0].offset.y, -45, 1e-12);
 }
 
+// Bones along x, each turned into its place by its channels: at rest hips 100 up, legs and trunk sideways.
+std::string rig_along_x(const std::string& frames) {
+  const std::string turns = "\nCHANNELS 3 Zrotation Yrotation Xrotation\n";
+  return "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation "
+         "Yrotation Xrotation\nJOINT Leg\n{\nOFFSET 0 -60 0" +
+         turns + "End Site\n{\nOFFSET 70 0 0\n}\n}\nJOINT Chest\n{\nOFFSET 0 40 0" + turns +
+         "End Site\n{\nOFFSET 45 0 0\n}\n}\n}\nMOTION\n" + frames;
+}
+
+TEST(BvhRead, TakesTheFirstFramesHeightWhereTheRestPoseIsNone) {
+  // Leg down, trunk up: 215 high; at rest 100, which would be 2.5 m in inches.
+  const std::string stands = "0 0 0 0 0 0 -90 0 0 90 0 0\n";
+  const std::string falls = "0 0 0 90 0 0 0 0 0 0 0 0\n";
+  const std::string rig = rig_along_x("Frames: 3\nFrame Time: 0.04\n" + stands + falls + falls);
+  Alone work;
+  EXPECT_EQ(read_bvh(rig, {}, work).source().unit_name, "cm");
+  ASSERT_EQ(work.reported.size(), 1u);
+  EXPECT_NE(work.reported[0].message.find("the first frame is 215 units high"), std::string::npos)
+      << work.reported[0].message;
+  // The file's first frame, whichever are kept.
+  ReadOptions options;
+  options.range = {1, 3};
+  EXPECT_EQ(read(rig, options).source().unit_name, "cm");
+  options.range = {};
+  options.drop_rest_frame = true;
+  EXPECT_EQ(read(rig, options).source().unit_name, "cm");
+}
+
+TEST(BvhRead, TakesTheLengthOfAFigureThatLiesForItsHeight) {
+  Alone work;
+  const std::string still = "Frames: 1\nFrame Time: 0.04\n1 2 3 0 0 0 0 0 5\n";
+  const std::string lies =
+      replaced(replaced(small_bvh(still), "0 -0.8 0.1", "0 0.1 -80"), "0 -0.9 0", "0 0 -90");
+  EXPECT_EQ(read_bvh(lies, {}, work).source().unit_name, "cm");
+  EXPECT_NE(work.reported[0].message.find("lies along Z"), std::string::npos) << work.reported[0].message;
+  ReadOptions options;
+  options.up = "z";
+  EXPECT_EQ(read(lies, options).source().unit_name, "cm");
+}
+
 TEST(BvhRead, TurnsAFileWhoseZPointsUp) {
   ReadOptions options = in_metres();
   const Motion as_written = read(small_bvh(two_frames()), options);

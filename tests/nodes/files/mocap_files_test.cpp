@@ -75,6 +75,33 @@ std::string test_name(const std::string& file) {
 INSTANTIATE_TEST_SUITE_P(All, MocapFile, testing::ValuesIn(files_that_load()),
                          [](const auto& one) { return test_name(one.param.file); });
 
+// Whatever unit a file is in, and whether it says so or it had to be found: people come out as tall as
+// people.
+TEST(MocapFiles, HoldPeopleOfAPersonsSize) {
+  KINEGRAPH_NEEDS_MOCAP();
+  // Animals, props, a chain, legs that are cut off at the knee (a depth camera's), a rig in decimetres, which
+  // no unit here is, and a game's dwarf.
+  const std::set<std::string> other = {"gltf/Fox.glb",
+                                       "gltf/RiggedSimple.glb",
+                                       "gltf/SimpleSkin.gltf",
+                                       "gltf/KayKit_Knight.glb",
+                                       "odd/makehuman_tpose.bvh",
+                                       "gltf/rig_transfer_from_bvh.glb",
+                                       "odd/rotation_first_root.bvh",
+                                       "odd/sinusoidal_no_endsite.bvh"};
+  int people = 0;
+  for (const Loads& one : files_that_load()) {
+    Alone work;
+    const MotionFile file = load(mocap(one.file), work);
+    if (!file.motion() || other.count(one.file)) continue;
+    const double legs = leg_length(file.motion()->skeleton());
+    EXPECT_GT(legs, 0.5) << one.file;
+    EXPECT_LT(legs, 1.1) << one.file;
+    ++people;
+  }
+  EXPECT_GE(people, 70);
+}
+
 auto bvh_files() {
   auto files = files_that_load();
   std::erase_if(files, [](const auto& one) { return !std::string(one.file).ends_with(".bvh"); });
