@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "nodes/feet/detect_contacts.h"
+#include "nodes/files/acclaim_skeleton.h"
 #include "nodes/files/rest_frame.h"
 #include "nodes/judge/other_programs.h"
 #include "nodes/motion/character.h"
@@ -16,14 +17,28 @@ namespace kinegraph {
 
 namespace {
 
-std::vector<std::string> channel_layouts(const Motion& motion) {
+std::vector<std::vector<std::string>> layout_of(const MotionFile& file, const std::string& path,
+                                                FileAccess& files) {
+  std::vector<std::vector<std::string>> layout;
+  if (file.format == "asf-amc") {
+    Alone quiet;
+    const FileBytes asf = files.read(file.companions.empty() ? path : file.companions.front());
+    for (const AcclaimBone& bone : read_asf(*asf, quiet).bones) layout.push_back(bone.dof);
+  } else {
+    for (const BvhJoint& joint : file.motion()->source().bvh) layout.push_back(joint.channels);
+  }
+  return layout;
+}
+
+std::vector<std::string> channels_together(const Motion& motion,
+                                           const std::vector<std::vector<std::string>>& of_joints) {
   struct Layout {
     std::string channels;
     std::vector<std::string> joints;
   };
   std::vector<Layout> layouts;
-  for (std::size_t j = 0; j < motion.source().bvh.size(); ++j) {
-    const auto& channels = motion.source().bvh[j].channels;
+  for (std::size_t j = 0; j < of_joints.size(); ++j) {
+    const auto& channels = of_joints[j];
     std::string text = fmt::format("{}", channels.size());
     for (const std::string& channel : channels) text += ' ' + channel;
     auto same =
@@ -85,7 +100,6 @@ MotionFacts motion_facts(const Motion& motion, Work& work) {
   const std::size_t first = facts.rest_frame ? 1 : 0;
   facts.first_height = height_in(motion, first);
   facts.travel = travel_of(motion, first);
-  facts.channels = channel_layouts(motion);
   for (int j = 1; j < motion.joints(); ++j)
     if (motion.translates(j)) facts.translating.push_back(motion.skeleton().joints[j].name);
   if (motion.frames() < first + 4) return facts;
@@ -177,6 +191,8 @@ FileFacts facts_of(const MotionFile& file, const std::string& path, FileAccess& 
     facts.unit_name = motion->source().unit_name;
     facts.up = motion->source().up == UpAxis::y ? "Y" : "Z";
     facts.motion = motion_facts(*motion, work);
+    facts.motion->layout = layout_of(file, path, files);
+    facts.motion->channels = channels_together(*motion, facts.motion->layout);
     facts.breaks = breaks_of(*motion, facts.motion->rest_frame ? 1 : 0, work);
     for (Diagnostic& one : for_other_programs(*motion)) facts.told.push_back(std::move(one));
   } else if (const Points* points = file.points()) {

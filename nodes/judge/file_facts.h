@@ -18,7 +18,10 @@ struct MotionFacts {
   double leg_length = 0;    // m; 0 = no legs were found
   double travel = 0;        // m, how far the root goes over the ground, along its path
   bool rest_frame = false;  // frame 0 looks like a T-pose
-  // Channels of a BVH, like ones together: "6 Xposition … Xrotation: Hips", "3 Zrotation …: 30 joints".
+  // Each joint's channels in the file, in order, of a BVH ("Zrotation") and of Acclaim's dof ("rz"); else
+  // empty.
+  std::vector<std::vector<std::string>> layout;
+  // The same, like ones together: "6 Xposition … Xrotation: Hips", "3 rx ry rz: 14 joints", "0: lhipjoint".
   std::vector<std::string> channels;
   std::vector<std::string> translating;  // joints besides the root whose place varies
   std::optional<Contacts> contacts;      // DetectContacts' defaults; nothing where there are no feet

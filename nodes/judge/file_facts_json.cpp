@@ -65,8 +65,8 @@ void put_motion(Json::Object& out, const Motion& motion, const MotionFacts& fact
     entry["parent"] = joint.parent;
     entry["offset"] = json_of(joint.offset);
     entry["translates"] = motion.translates(j);
-    if (static_cast<std::size_t>(j) < motion.source().bvh.size())
-      entry["channels"] = json_of(motion.source().bvh[j].channels);
+    if (static_cast<std::size_t>(j) < facts.layout.size())
+      entry["channels"] = json_of(facts.layout[static_cast<std::size_t>(j)]);
     joints.push_back(std::move(entry));
   }
   for (const EndSite& end : motion.skeleton().ends)
