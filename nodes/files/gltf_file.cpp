@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "graph/file/parse_json.h"
+#include "nodes/files/text_place.h"
 
 namespace kinegraph {
 
@@ -98,7 +99,14 @@ void bad_gltf(std::string what) {
 }
 
 std::string_view gltf_json_of(std::string_view bytes) {
-  if (!is_glb(bytes)) return bytes.substr(0, 3) == "\xEF\xBB\xBF" ? bytes.substr(3) : bytes;
+  if (!is_glb(bytes)) {
+    if (bytes.substr(0, 3) == "\xEF\xBB\xBF") bytes.remove_prefix(3);
+    if (trimmed(bytes).substr(0, 1) != "{")
+      throw Failure(
+          error("not-gltf", "the file begins neither with { as a .gltf does nor with glTF as a .glb")
+              .hinting("check whether the file is whole and a glTF"));
+    return bytes;
+  }
   if (bytes.size() < 20) throw Failure(error("truncated", "the file ends within its header"));
   if (u32_at(bytes, 4) != 2) bad_gltf(fmt::format("the file is glTF {}, not 2", u32_at(bytes, 4)));
   const std::size_t length = u32_at(bytes, 12);

@@ -76,6 +76,14 @@ std::string format_of_bytes(std::string_view bytes) {
   return {};
 }
 
+// What no reader can make anything of, whichever it is.
+void refuse_outright(std::string_view bytes) {
+  if (bytes.empty()) throw Failure(error("empty-file", "the file is empty"));
+  const std::string_view start = bytes.substr(0, 2);
+  if (start == "\xFF\xFE" || start == "\xFE\xFF")
+    throw Failure(error("utf-16", "the file is text in UTF-16").hinting("save it as UTF-8"));
+}
+
 const ReadFormat* reader_of(const std::string& path, const ReadOptions& options, std::string_view bytes) {
   std::string key = options.format;
   if (key == "auto") key = read_format_of(path);
@@ -106,8 +114,10 @@ std::vector<std::string> companions_of(const std::string& path, const ReadOption
 MotionFile read_motion_file(const std::string& path, const ReadOptions& options, FileAccess& files,
                             Work& work) {
   const FileBytes bytes = files.read(path);
+  const ReadFormat* format = nullptr;
   try {
-    const ReadFormat* format = reader_of(path, options, *bytes);
+    refuse_outright(*bytes);
+    format = reader_of(path, options, *bytes);
     if (!format)
       throw Failure(error("unknown-format", "neither its name nor its content tells the file's format")
                         .hinting("set format; " + readable())
@@ -124,6 +134,11 @@ MotionFile read_motion_file(const std::string& path, const ReadOptions& options,
     return file;
   } catch (const Failure& failure) {
     Diagnostic problem = failure.diagnostic();
+    const std::string begins = format_of_bytes(*bytes);
+    if (format && !begins.empty() && begins != "json" && begins != format->key && problem.file.empty())
+      problem.hint = fmt::format(
+          "the file begins as {} does: {}", begins,
+          options.format == "auto" ? "set format, or give it that ending" : "set format to that, or to auto");
     if (problem.file.empty()) problem.file = path;
     throw Failure(problem);
   }

@@ -76,7 +76,7 @@ Columns read_columns(std::string_view text, std::string_view header) {
     const char mark = lower.size() < 3 ? ' ' : lower[lower.size() - 2];
     if (axis < 'x' || axis > 'z' || (mark != '.' && mark != '_' && mark != ' ' && mark != ':'))
       fail_at(text, header.data(), "bad-header",
-              fmt::format("column {} is \"{}\", none of frame, time, NAME.x, NAME.y, NAME.z", i + 1, cell),
+              fmt::format("column {} is {}, none of frame, time, NAME.x, NAME.y, NAME.z", i + 1, shown(cell)),
               "points are tables with three columns a point");
     columns.ours &= mark == '.';
     const std::string label = cell.substr(0, cell.size() - 2);
@@ -124,7 +124,8 @@ Points read_points_table(std::string_view text, const ReadOptions& options, Work
     if (cells.size() != columns.count)
       fail_at(text, cells.size() < columns.count ? line.data() + line.size() : cells[columns.count].data(),
               cells.size() < columns.count ? "too-few-values" : "too-many-values",
-              fmt::format("the row has {} cells, the header {}", cells.size(), columns.count));
+              fmt::format("the row has {} cells, the header {}", cells.size(), columns.count),
+              "the file is cut short or damaged there");
     std::vector<double> row(cells.size());
     std::vector<bool> empty(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {

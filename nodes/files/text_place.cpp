@@ -22,13 +22,28 @@ void fail_at(std::string_view text, const char* at, std::string code, std::strin
       error(std::move(code), std::move(message)).hinting(std::move(hint)).in_file({}, place_in(text, at)));
 }
 
+std::string shown(std::string_view bytes) {
+  bool changed = false;
+  const std::string text = as_utf8(bytes.substr(0, 40), changed);
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<std::uint8_t>(text[i]);
+    const bool high = c == 0xC2 && static_cast<std::uint8_t>(text[i + 1]) < 0xA0;
+    if (c < ' ' || c == 127 || high)  // what a terminal would obey
+      out += '?';
+    else
+      out += text[i];
+    i += high;
+  }
+  return '"' + out + '"';
+}
+
 std::string word_at(std::string_view text, const char* at) {
   const char* end = text.data() + text.size();
   const char* stop = at;
   while (stop < end && stop - at < 40 && !is_blank(*stop) && !is_line_end(*stop)) ++stop;
-  bool changed = false;
-  return stop == at ? "the end of the line"
-                    : '"' + as_utf8({at, static_cast<std::size_t>(stop - at)}, changed) + '"';
+  if (stop == at) return at >= end ? "the end of the file" : "the end of the line";
+  return shown({at, static_cast<std::size_t>(stop - at)});
 }
 
 namespace {

@@ -12,7 +12,9 @@ Place place_in(std::string_view text, const char* at);
 // A Failure at that place, in no file yet: read_motion_file adds the name.
 [[noreturn]] void fail_at(std::string_view text, const char* at, std::string code, std::string message,
                           std::string hint = {});
-// The word that starts at `at`, cut to 40 bytes, in quotes, for messages.
+// Bytes of a file in quotes, for messages: cut to 40, ? for what can't be printed.
+std::string shown(std::string_view bytes);
+// The same of the word that starts at `at`.
 std::string word_at(std::string_view text, const char* at);
 // Bytes that aren't UTF-8 taken as Latin-1; `changed` is set when there were any.
 std::string as_utf8(std::string_view bytes, bool& changed);

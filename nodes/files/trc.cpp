@@ -118,7 +118,8 @@ Rows read_rows(TextLines& lines, const Header& header, Work& work) {
     if (count != wanted)
       fail_at(lines.text(), count < wanted ? line.data() + line.size() : cells[2 + wanted].data(),
               count < wanted ? "too-few-values" : "too-many-values",
-              fmt::format("frame {:g} has {} values for {} markers", frame, count, header.markers));
+              fmt::format("frame {:g} has {} values for {} markers", frame, count, header.markers),
+              "the file is cut short or damaged there");
     for (std::size_t i = 0; i < wanted; ++i) {
       double value = 0;
       rows.missing.push_back(!read_cell(lines.text(), cells[2 + i], value));
