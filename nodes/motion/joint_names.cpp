@@ -109,7 +109,8 @@ JointName read_joint_name(std::string_view name) {
       continue;
     out.word += token;
   }
-  if (out.word.starts_with("mixamorig")) out.word.erase(0, std::string_view("mixamorig").size());
+  if (constexpr std::string_view rig = "mixamorig"; out.word.starts_with(rig))  // mixamorig9Hips, too
+    out.word.erase(0, std::min(out.word.find_first_not_of("0123456789", rig.size()), out.word.size()));
   for (auto [long_name, its_side] : {std::pair{"left", Side::left}, std::pair{"right", Side::right}}) {
     if (auto at = out.word.find(long_name); at != out.word.npos) {
       out.side = its_side;

@@ -18,6 +18,9 @@ TEST(JointNames, tell_part_and_side_in_the_conventions_that_are_about) {
   for (const Case& one :
        std::initializer_list<Case>{{"mixamorig:LeftUpLeg", Side::left, BodyPart::thigh},
                                    {"mixamorig_RightForeArm", Side::right, BodyPart::forearm},
+                                   {"mixamorig9:LeftFoot", Side::left, BodyPart::foot},
+                                   {"mixamorig4_RightArm", Side::right, BodyPart::upper_arm},
+                                   {"mixamorig12Hips", Side::middle, BodyPart::pelvis},
                                    {"lfemur", Side::left, BodyPart::thigh},
                                    {"rhumerus", Side::right, BodyPart::upper_arm},
                                    {"lclavicle", Side::left, BodyPart::clavicle},
