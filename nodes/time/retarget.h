@@ -9,7 +9,8 @@
 // turns about their own axes are the source's.
 //
 // Links that are the shape of a body rather than its pose are not aligned: a joint with several, as pelvis
-// and chest have, holds them at fixed angles to each other, and turns as its partner does. Feet are aligned
+// and chest have, holds them at fixed angles to each other, and turns as its partner does; the pelvis after a
+// small turn where that brings all of its links within 5°. Feet are aligned
 // by their soles: C turns about up only, as the angle from ankle to toe depends on how high the ankle stands.
 // Where points of a mesh would be under the ground, toes and feet are bent up by the least that keeps them on
 // it.

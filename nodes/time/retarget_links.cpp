@@ -1,6 +1,7 @@
 #include "nodes/time/retarget_links.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/joint_names.h"
@@ -37,6 +38,7 @@ class Planning {
       }
       const int above = paired_above(j);
       if (kind == Kind::limb && above >= 0 && kind_of(above) == Kind::limb) aligned[j] = aligned[above];
+      if (j == pairs_.target_pelvis) aligned[j] = fit_of(j);
       const int next = kind == Kind::whole ? -1 : next_of(j, kind);
       if (next >= 0) {
         const int source_next = pairs_.source_of[next];
@@ -69,6 +71,40 @@ class Planning {
         plans[k].shape_of = j;
       }
     }
+  }
+
+  // The turn that brings all links of the pelvis to within 5° of the source's directions, where there is one,
+  // and so small that the pelvis stands as it did for the eye; else none.
+  Quat fit_of(int j) const {
+    constexpr double alike = 5 / degrees_per_radian, small = 12 / degrees_per_radian;
+    std::vector<std::pair<Vec3, Vec3>> links;  // target's and source's directions
+    for (int k = j + 1; k < target_.size(); ++k) {
+      const int from = pairs_.source_of[k];
+      if (from < 0 || paired_above(k) != j || !source_.is_below(from, pairs_.source_of[j])) continue;
+      const Vec3 theirs = place(a_, from) - place(a_, pairs_.source_of[j]);
+      const Vec3 own = place(b_, k) - place(b_, j);
+      if (norm(theirs) > tiny_a_ && norm(own) > tiny_b_)
+        links.emplace_back(normalized(rotate(facing_, own)), normalized(theirs));
+    }
+    const auto largest = [&](Quat by) {
+      double most = 0;
+      for (const auto& [own, theirs] : links)
+        most = std::max(most, turn(smallest_turn(rotate(by, own), theirs)));
+      return most;
+    };
+    if (largest({}) <= alike) return {};
+    Quat fit;
+    for (int round = 0; round < 100; ++round) {  // by the mean of what each of them needs
+      Vec3 need;
+      for (const auto& [own, theirs] : links) {
+        const Quat by = smallest_turn(rotate(fit, own), theirs);
+        const Vec3 axis{by.x, by.y, by.z};
+        if (norm(axis) > 0) need += turn(by) / norm(axis) / static_cast<double>(links.size()) * axis;
+      }
+      if (norm(need) < 1e-12) break;
+      fit = normalized(axis_angle(normalized(need), norm(need)) * fit);
+    }
+    return largest(fit) <= alike && turn(fit) <= small ? fit : Quat{};
   }
 
   int paired_above(int j) const {

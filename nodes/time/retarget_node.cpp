@@ -37,7 +37,7 @@ Motion standing(const Character& character) {
 NodeType retarget_node() {
   NodeType type;
   type.name = "Retarget";
-  type.code_version = 3;
+  type.code_version = 4;
   type.category = "time";
   type.help =
       "Puts a motion on another skeleton: other names, other proportions, another rest pose. Links point "
