@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "nodes/cartoon/rubber_joints.h"
@@ -10,60 +11,38 @@
 namespace kinegraph {
 namespace {
 
-constexpr double least_distance = 1e-6;  // of the height
-
-double distance(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 link = b - a;
-  const double size = dot(link, link);
-  const double along = size > 0 ? std::clamp(dot(p - a, link) / size, 0.0, 1.0) : 0;
-  return norm(p - (a + along * link));
-}
-
 struct Influence {
-  int joint;           // of the old skeleton
   std::uint32_t slot;  // of the new skin's joints
   double weight;
 };
 
-// Keeps the largest and at least one of every joint, gives what the others had to the largest kept one of the
-// same joint.
-void keep_largest(std::vector<Influence>& all, std::size_t most) {
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
-  if (all.size() <= most) return;
-  std::vector<bool> kept(all.size());
-  const auto largest_kept = [&](int joint) {
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (kept[i] && all[i].joint == joint) return i;
-    return all.size();
-  };
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (largest_kept(all[i].joint) == all.size()) {
-      kept[i] = true;
-      ++count;
-    }
-  for (std::size_t i = 0; i < all.size() && count < most; ++i)
-    if (!kept[i]) {
-      kept[i] = true;
-      ++count;
-    }
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (!kept[i]) all[largest_kept(all[i].joint)].weight += all[i].weight;
-  std::vector<Influence> left;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (kept[i]) left.push_back(all[i]);
-  all = std::move(left);
+// What one joint of the old skin gives a vertex: the nearer of two neighbouring sub-joints, and the other
+// one.
+struct Share {
+  Influence near, other;
+};
+
+// Where there are more than `most`, the others give way to their nearer ones: the smallest whole, larger ones
+// by as much, so that weights go to zero before they are dropped.
+void keep_few(std::vector<Share>& shares, std::size_t most) {
+  std::vector<double> others;
+  for (const Share& share : shares)
+    if (share.other.weight > 0) others.push_back(share.other.weight);
+  const std::size_t room = most > shares.size() ? most - shares.size() : 0;
+  if (others.size() <= room) return;
+  std::sort(others.begin(), others.end(), std::greater<>());
+  const double least = others[room];
+  for (Share& share : shares) {
+    const double given = std::min(least, share.other.weight);
+    share.near.weight += given;
+    share.other.weight -= given;
+  }
 }
 
 class Rebinding {
  public:
   Rebinding(const Character& old, const SubJoints& sub, const SubSkeleton& rubber)
-      : old_(old),
-        sub_(sub),
-        rubber_(rubber),
-        rest_(rest_pose_of(*old.skeleton)),
-        least_(least_distance * std::max(rest_height(*old.skeleton), 1e-9)) {}
+      : old_(old), sub_(sub), rubber_(rubber), rest_(rest_pose_of(*old.skeleton)) {}
 
   Affine seen_from(int sub_joint) const {
     const int k = sub_.all[sub_joint].joint;
@@ -88,49 +67,55 @@ class Rebinding {
   void part(const Skin& old_skin, const std::vector<std::uint32_t>& first, MeshPart& part, Work& work) const {
     const std::vector<Vec3> at = posed_vertices(old_, part, rest_);
     std::vector<std::vector<Influence>> all(part.vertices());
-    int most = 1;
+    std::vector<Share> shares;
+    std::size_t most = 1;
     for (std::size_t v = 0; v < all.size(); ++v) {
       if (v % 1024 == 0) work.check();
+      shares.clear();
       for (int i = 0; i < part.influences; ++i) {
         const std::size_t entry = v * static_cast<std::size_t>(part.influences) + static_cast<std::size_t>(i);
         if (part.weights[entry] != 0)
-          spread(old_skin, first, part.joints[entry], part.weights[entry], at[v], all[v]);
+          shares.push_back(share(old_skin, first, part.joints[entry], part.weights[entry], at[v]));
       }
-      keep_largest(all[v], usual_influences);
-      most = std::max(most, static_cast<int>(all[v].size()));
+      keep_few(shares, usual_influences);
+      for (const Share& one : shares)
+        for (const Influence& influence : {one.near, one.other})
+          if (influence.weight > 0) all[v].push_back(influence);
+      std::stable_sort(all[v].begin(), all[v].end(),
+                       [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+      most = std::max(most, all[v].size());
     }
-    part.influences = most;
-    part.joints.assign(all.size() * static_cast<std::size_t>(most), 0);
+    part.influences = static_cast<int>(most);
+    part.joints.assign(all.size() * most, 0);
     part.weights.assign(part.joints.size(), 0.0f);
     for (std::size_t v = 0; v < all.size(); ++v)
       for (std::size_t i = 0; i < all[v].size(); ++i) {
-        part.joints[v * static_cast<std::size_t>(most) + i] = all[v][i].slot;
-        part.weights[v * static_cast<std::size_t>(most) + i] = static_cast<float>(all[v][i].weight);
+        part.joints[v * most + i] = all[v][i].slot;
+        part.weights[v * most + i] = static_cast<float>(all[v][i].weight);
       }
   }
 
  private:
-  void spread(const Skin& skin, const std::vector<std::uint32_t>& first, std::uint32_t slot, double weight,
-              Vec3 v, std::vector<Influence>& out) const {
-    const int k = skin.joints[slot], own = sub_.first[k];
-    const SubJoint& one = sub_.all[own];
-    std::vector<double> near;
-    double total = 0;
-    for (int l = 0; l < one.count; ++l) {
-      const int next = l + 1 < one.count ? own + l + 1 : one.next >= 0 ? sub_.first[one.next] : own + l;
-      near.push_back(
-          1 / std::max(distance(v, rubber_.rest.positions[own + l], rubber_.rest.positions[next]), least_));
-      total += near.back();
-    }
-    for (int l = 0; l < one.count; ++l)
-      out.push_back({k, first[slot] + static_cast<std::uint32_t>(l), weight * near[l] / total});
+  Share share(const Skin& skin, const std::vector<std::uint32_t>& first, std::uint32_t slot, double weight,
+              Vec3 v) const {
+    const int k = skin.joints[slot];
+    const SubJoint& one = sub_.all[sub_.first[k]];
+    if (one.count == 1) return {{first[slot], weight}, {}};
+    const Vec3 start = rest_.positions[k], link = rest_.positions[one.next] - start;
+    const double size = dot(link, link);
+    const double along = size > 0 ? one.count * dot(v - start, link) / size : 0;
+    const double place = std::clamp(along, 0.0, one.count - 1.0), before = std::floor(place);
+    const auto nearest = static_cast<std::uint32_t>(std::floor(place + 0.5));
+    const auto above = static_cast<std::uint32_t>(before);
+    const double part = std::fabs(place - nearest);
+    return {{first[slot] + nearest, weight * (1 - part)},
+            {first[slot] + (nearest == above ? above + 1 : above), weight * part}};
   }
 
   const Character& old_;
   const SubJoints& sub_;
   const SubSkeleton& rubber_;
   Pose rest_;
-  double least_;
 };
 
 std::shared_ptr<const CharacterSource> source_of(const Character& character, const SubJoints& sub) {

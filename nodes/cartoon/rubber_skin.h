@@ -13,12 +13,14 @@ namespace kinegraph {
 inline constexpr int usual_influences = 4;
 
 // The character with the links of its joints cut as `of_motion` cuts those of `motion` (joints matched by
-// name). The weight of a vertex v on joint k goes to its sub-joints,
-//   w'_{v,k,l} = w_{v,k} d_l⁻¹ / Σ d⁻¹,
-// d_l the distance at rest, at least 1e-6 of the height, from v to the segment J'_{k,l} – J'_{k,l+1}. Of more
-// than usual_influences the smallest are dropped and their weights go to the largest kept one of the same
-// joint, so sums hold. At rest every vertex stays where it was: inverse bind matrices are those of the joint,
-// seen from the sub-joint's own rest.
+// name). The weight of a vertex v on joint k goes to the two of its sub-joints that v lies between: with u
+// the place of v along k's link at rest, in sub-links and held to [0, m_k − 1],
+//   w'_{v,k,l} = w_{v,k} max(0, 1 − |u − (l − 1)|).
+// [Kwon §5.5] gives every sub-joint of k its part by inverse distance, up to 16 a vertex; of those the four
+// largest are others for each of two neighbours, and the mesh tears between them. Two a joint are seldom over
+// four: then the smaller ones of pairs give way to the larger ones, so that sums per joint hold. At rest
+// every vertex stays where it was: inverse bind matrices are those of the joint, seen from the sub-joint's
+// own rest.
 Character rubber_character(const Character& character, const Motion& motion, const SubJoints& of_motion,
                            const SubJointParams& params, Work& work);
 

@@ -17,6 +17,9 @@ namespace {
 constexpr double sub_link = 0.0425;
 constexpr int most_by_length = 12;
 
+// A joint nearer than this to the branching joint above it stands for a part of the trunk.
+constexpr double same_place = 0.005;  // of the height
+
 // Standing people are 1.17 to 1.39 times as tall as their longest way from the pelvis to a tip. A rest pose
 // that is folded or lies down is lower.
 constexpr double least_height = 1.15;
@@ -68,6 +71,10 @@ std::vector<int> counts_of(const Motion& motion, const SubJointParams& params, c
                            const std::vector<double>& lengths, Work& work) {
   const Skeleton& skeleton = motion.skeleton();
   const double height = height_of(skeleton, lengths);
+  const auto in_trunk = [&](int j) {
+    const int parent = skeleton.joints[j].parent;
+    return parent >= 0 && only[parent] < 0 && lengths[j] < same_place * height;
+  };
   std::vector<std::string> patterns;
   for (const auto& [pattern, count] : params.counts) patterns.push_back(pattern);
   const std::vector<int> chosen = most_specific(patterns, skeleton, "sub_joints", work);
@@ -88,7 +95,7 @@ std::vector<int> counts_of(const Motion& motion, const SubJointParams& params, c
                 .at_param("sub_joints")
                 .at_joint(pattern)
                 .hinting("leave it at 1"));
-    } else if (only[j] >= 0 && height > 0) {
+    } else if (only[j] >= 0 && height > 0 && !in_trunk(j)) {
       counts[j] = std::clamp(static_cast<int>(std::floor(lengths[only[j]] / (sub_link * height) + 0.5)), 1,
                              most_by_length);
     }

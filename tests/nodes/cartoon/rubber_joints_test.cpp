@@ -63,6 +63,15 @@ TEST(SubJoints, AreAsManyOnARestPoseThatIsFolded) {
   EXPECT_EQ(thigh("odd/makehuman_tpose.bvh", "lowerleg01.L"), 3);
 }
 
+TEST(SubJoints, LeaveLinksAcrossTheTrunkWhole) {
+  KINEGRAPH_NEEDS_MOCAP();
+  Alone work;
+  const Motion clip = cartoon_clip("cmu/bvh/08_01.bvh", 2);
+  const SubJoints sub = lay_sub_joints(clip, {}, work);
+  for (const char* joint : {"LHipJoint", "RHipJoint", "LowerBack", "Neck", "LeftShoulder", "RightShoulder"})
+    EXPECT_EQ(sub.all[sub.first[clip.skeleton().find(joint)]].count, 1) << joint;
+}
+
 TEST(SubJoints, TakeCountsByPattern) {
   Alone work;
   const Motion walk = gait("walk", 1);
