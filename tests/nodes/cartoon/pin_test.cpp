@@ -171,6 +171,65 @@ TEST(Pin, AddsLittleAccelerationToMovingClips) {
   }
 }
 
+// A moving point that is held still for several frames loses its own acceleration there, whatever the pin
+// does. What is left to the pin: its offset, which is all that differs from holding the point where it is
+// anyhow; and to bring it to rest, from as far away as it is in the fades.
+TEST(Pin, AddsLittleMoreThanStandingStillDoesOnMovingClips) {
+  KINEGRAPH_NEEDS_MOCAP();
+  for (const char* file : cartoon_clips) {
+    Alone work;
+    const Motion motion = resampled(cartoon_clip(file, 240), 120, work);
+    const WorldMotion world = world_motion(motion);
+    double worst_offset = 0, worst_hold = 0;
+    for (const auto& group : automatic_groups(motion.skeleton(), small_ends(motion.skeleton()))) {
+      if (group.size() < 3) continue;
+      const int end = group.back();
+      const auto way = world.position(end);
+      for (const double fade : {0.25, 0.5})
+        for (const std::size_t frames : {2u, 6u, 24u})
+          for (std::size_t middle : {motion.frames() / 3, motion.frames() / 2}) {
+            PinParams params;
+            params.fade = fade;
+            const std::size_t start = middle - frames / 2;
+            const auto pinned_at = [&](Vec3 position) {
+              params.pins = {{motion.skeleton().joints[end].name, start, start + frames, position}};
+              return world_motion(pin(motion, params, nullptr, work));
+            };
+            const WorldMotion still = pinned_at(way[middle]);
+            const auto reach = static_cast<std::size_t>(fade * motion.fps()) + 2;
+            const std::size_t first = start > reach ? start - reach : 0,
+                              last = std::min(start + frames + reach, motion.frames());
+            const double own = acceleration(way, nullptr, motion.fps(), first, last);
+            const auto check_hold = [&](const WorldMotion& held, Vec3 position) {
+              double far = 0;
+              for (std::size_t t = first; t < last; ++t) far = std::max(far, norm(position - way[t]));
+              const double added = acceleration(held.position(end), &way, motion.fps(), 0, motion.frames());
+              const double bound = 8 * far / (fade * fade) + own;
+              EXPECT_LT(added, bound) << file << " " << params.pins[0].joint << " " << frames << " " << fade;
+              worst_hold = std::max(worst_hold, added / bound);
+            };
+            check_hold(still, way[middle]);
+            for (const double d : {0.05, 0.2})
+              for (Vec3 direction : {Vec3{0, 1, 0}, Vec3{0.6, 0, -0.8}}) {
+                const WorldMotion held = pinned_at(way[middle] + d * direction);
+                for (std::size_t t = start; t < start + frames; ++t)
+                  EXPECT_LT(norm(held.position(end)[t] - params.pins[0].position), 1e-9);
+                const auto without = still.position(end);
+                const double added =
+                    acceleration(held.position(end), &without, motion.fps(), 0, motion.frames());
+                EXPECT_LT(added, 8 * d / (fade * fade))
+                    << file << " " << params.pins[0].joint << " " << d << " " << frames << " " << fade;
+                worst_offset = std::max(worst_offset, added / (d / (fade * fade)));
+                check_hold(held, params.pins[0].position);
+              }
+          }
+    }
+    EXPECT_GT(worst_offset, 5);
+    RecordProperty(file, "offset " + std::to_string(worst_offset) + " d/t², hold " +
+                             std::to_string(worst_hold) + " of its bound");
+  }
+}
+
 TEST(BentChain, TurnsItsBendsAlongWithItself) {
   // A chain along x that zigzags in y; its end is carried over so that it ends along y. The zigzag must then
   // lie across the new direction, not along it.
