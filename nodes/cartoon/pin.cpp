@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -20,6 +21,9 @@ namespace {
 
 constexpr std::size_t most_goals =
     8;  // joints of one chain that are pinned: every set of them has its own curve
+
+// Legs of sub-joints, bent at rest, are up to 8.5 % longer.
+constexpr double same_legs = 0.1;
 
 // Where a joint shall be, and how much of the way it goes there, at every frame.
 struct Goal {
@@ -144,6 +148,9 @@ void add_plants(const Motion& motion, const WorldMotion& world, const Contacts& 
   const Skeleton& skeleton = motion.skeleton();
   const std::vector<int> joints = contact_joints(contacts, motion, work);
   const std::vector<bool> pruned = small_ends(skeleton);
+  // Heights at which plants were found are the ground's, on a body of the same size.
+  const bool ground =
+      contacts.leg > 0 && std::fabs(leg_length(skeleton) - contacts.leg) < same_legs * contacts.leg;
   for (std::size_t i = 0; i < contacts.points.size(); ++i) {
     const FootPoint& point = contacts.points[i];
     const int joint = joints[i];
@@ -158,10 +165,12 @@ void add_plants(const Motion& motion, const WorldMotion& world, const Contacts& 
                       .hinting("let heels and balls of DetectContacts choose joints further down a leg"));
       continue;
     }
-    for (const Run& run : runs) {
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const Run& run = runs[r];
       Vec3 mean;
       for (std::size_t t = run.start; t < run.end; ++t)
         mean += point_at(world, joint, point.local, t) / static_cast<double>(run.end - run.start);
+      if (ground && r < point.heights.size()) mean.y = point.heights[r];
       // The joint keeps its orientation, so the point stands still when the joint makes up for what it turns.
       std::vector<Vec3> target(motion.frames());
       for (std::size_t t = 0; t < motion.frames(); ++t)

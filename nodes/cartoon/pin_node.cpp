@@ -30,7 +30,7 @@ PinParams settings_of(const Params& params, const Motion& motion) {
 NodeType pin_node() {
   NodeType type;
   type.name = "Pin";
-  type.code_version = 5;
+  type.code_version = 6;
   type.category = "cartoon";
   type.help =
       "Makes hands, feet or other ends of chains pass exactly through given points, by bending the chain.";
@@ -38,7 +38,7 @@ NodeType pin_node() {
   type.keywords = {"pin", "constraint", "target", "reach", "hit", "plant", "Kwon"};
   type.input("motion", {"Motion"}, "the motion to bend");
   type.optional_input("contacts", {"Contacts"},
-                      "planted points, which stay where they are planted; open: pins only");
+                      "planted points, which stay on the ground where they are planted; open: pins only");
   type.output("motion", "Motion", "the motion through the pins", "motion");
   const auto metres = [] { return number(0).between(-1e6, 1e6).in("m"); };
   type.param(

@@ -333,6 +333,30 @@ TEST(Pin, HoldsPlantedFeetThatExaggerationMoved) {
   EXPECT_LT(after, 1e-9);
 }
 
+TEST(Pin, PutsPlantedFeetBackOnTheGround) {
+  Alone work;
+  const Motion run = gait("run", 2);
+  const Contacts contacts = detect_contacts(run, {}, work);
+  const auto highest = [&](const Contacts& given) {
+    const Motion rubber = rubber_joints(exaggerate(run, {}, work).motion, {}, &given, work).motion;
+    const WorldMotion held = world_motion(pin(rubber, {{}, 0.15}, &given, work));
+    double most = 0;
+    for (const FootPoint& point : contacts.points) {
+      const int joint = rubber.skeleton().find(point.joint_name);
+      const auto runs = runs_of(point.planted);
+      for (std::size_t r = 0; r < runs.size(); ++r)
+        for (std::size_t t = runs[r].start; t < runs[r].end; ++t)
+          most = std::max(most, std::fabs(point_at(held, joint, point.local, t).y - point.heights[r]));
+    }
+    return most;
+  };
+  EXPECT_LT(highest(contacts), 1e-9);
+  // Of another body's contacts only the frames count.
+  Contacts shorter = contacts;
+  shorter.leg *= 0.8;
+  EXPECT_GT(highest(shorter), 0.01);
+}
+
 TEST(Pin, LeavesArmsOnATorsoThatIsPinnedWithThem) {
   Alone work;
   const Motion walk = gait("walk", 3);
