@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "nodes/cartoon/above_ground.h"
 #include "nodes/cartoon/chain_bend.h"
 #include "nodes/cartoon/contact_joints.h"
 #include "nodes/cartoon/groups.h"
@@ -15,6 +16,7 @@
 #include "nodes/cartoon/planted_limbs.h"
 #include "nodes/cartoon/world_to_local.h"
 #include "nodes/motion/kinematics.h"
+#include "nodes/quiet_work.h"
 
 namespace kinegraph {
 namespace {
@@ -142,15 +144,18 @@ std::map<int, std::vector<Hold>> holds_of_pins(const Motion& motion, const World
   return holds;
 }
 
+// Heights at which plants were found are the ground's, on a body of the same size.
+bool knows_ground(const Contacts& contacts, const Skeleton& skeleton) {
+  return contacts.leg > 0 && std::fabs(leg_length(skeleton) - contacts.leg) < same_legs * contacts.leg;
+}
+
 // Adds what planted points hold. A planted joint that no chain leads to stays as it is, with a warning.
 void add_plants(const Motion& motion, const WorldMotion& world, const Contacts& contacts,
                 std::map<int, std::vector<Hold>>& holds, Work& work) {
   const Skeleton& skeleton = motion.skeleton();
   const std::vector<int> joints = contact_joints(contacts, motion, work);
   const std::vector<bool> pruned = small_ends(skeleton);
-  // Heights at which plants were found are the ground's, on a body of the same size.
-  const bool ground =
-      contacts.leg > 0 && std::fabs(leg_length(skeleton) - contacts.leg) < same_legs * contacts.leg;
+  const bool ground = knows_ground(contacts, skeleton);
   for (std::size_t i = 0; i < contacts.points.size(); ++i) {
     const FootPoint& point = contacts.points[i];
     const int joint = joints[i];
@@ -278,6 +283,42 @@ void bend(const Skeleton& skeleton, const PinnedChain& chain, WorldMotion& moved
   }
 }
 
+// Lifts what planted chains let sink under the ground between their plants; pins say for themselves where
+// they are.
+void lift(const Motion& motion, const Contacts& contacts, const std::map<int, std::vector<Hold>>& holds,
+          std::map<int, PinnedChain>& chains, WorldMotion& moved, Work& work) {
+  const Skeleton& skeleton = motion.skeleton();
+  if (!knows_ground(contacts, skeleton)) return;
+  std::map<int, std::vector<double>> lifts;  // of joints
+  QuietWork quiet(work);
+  const std::vector<int> joints = contact_joints(contacts, motion, quiet);
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    if (joints[i] < 0 || !holds.contains(joints[i])) continue;
+    const std::vector<double> up = lift_above_ground(contacts.points[i], moved, joints[i], contacts.leg);
+    std::vector<double>& most = lifts[joints[i]];
+    most.resize(up.size());
+    for (std::size_t t = 0; t < up.size(); ++t) most[t] = std::max(most[t], up[t]);
+  }
+  for (auto& [first, chain] : chains) {
+    std::vector<double> part(motion.frames());
+    bool planted = true;
+    for (const auto& [index, goal] : chain.goals) {
+      const int joint = chain.joints[index];
+      for (const Hold& hold : holds.at(joint)) planted = planted && hold.param.empty();
+      for (std::size_t t = 0; t < part.size(); ++t)
+        if (lifts.contains(joint) && lifts[joint][t] > 0) part[t] = 1;
+    }
+    if (!planted || std::all_of(part.begin(), part.end(), [](double p) { return p == 0; })) continue;
+    for (auto& [index, goal] : chain.goals) {
+      const int joint = chain.joints[index];
+      goal.part = part;
+      for (std::size_t t = 0; t < part.size(); ++t)
+        goal.target[t] = moved.position(joint)[t] + Vec3{0, lifts.contains(joint) ? lifts[joint][t] : 0, 0};
+    }
+    bend(skeleton, chain, moved, turn_limits(motion.fps()), work);
+  }
+}
+
 }  // namespace
 
 Motion pin(const Motion& motion, const PinParams& params, const Contacts* contacts, Work& work) {
@@ -311,6 +352,7 @@ Motion pin(const Motion& motion, const PinParams& params, const Contacts* contac
               [](const auto& a, const auto& b) { return a.first < b.first; });
     bend(skeleton, chain, moved, turn_limits(motion.fps()), work);
   }
+  if (contacts) lift(motion, *contacts, holds, chains, moved, work);
   return motion_from_world(motion.shared_skeleton(), motion.shared_source(), motion.fps(),
                            motion.translating(), moved, work);
 }

@@ -357,6 +357,33 @@ TEST(Pin, PutsPlantedFeetBackOnTheGround) {
   EXPECT_GT(highest(shorter), 0.01);
 }
 
+TEST(Pin, KeepsSwingingFeetAboveTheGround) {
+  KINEGRAPH_NEEDS_MOCAP();
+  Alone work;
+  const Motion dance = cartoon_clip("cmu/bvh/05_03.bvh", 434);
+  const Contacts contacts = detect_contacts(dance, {}, work);
+  ExaggerateParams params;
+  params.omega = 4;
+  params.keep_root = true;
+  const Motion rubber = rubber_joints(exaggerate(dance, params, work).motion, {}, &contacts, work).motion;
+  Contacts unknown = contacts;
+  unknown.leg = 0;  // so the height of the ground isn't known
+  const auto lowest = [&](const Motion& motion) {
+    const WorldMotion world = world_motion(motion);
+    double least = 0;
+    for (const FootPoint& point : contacts.points) {
+      if (point.heights.empty()) continue;
+      const int joint = motion.skeleton().find(point.joint_name);
+      const double ground = *std::min_element(point.heights.begin(), point.heights.end());
+      for (std::size_t t = 0; t < motion.frames(); ++t)
+        least = std::min(least, point_at(world, joint, point.local, t).y - ground);
+    }
+    return least;
+  };
+  EXPECT_LT(lowest(pin(rubber, {{}, 0.15}, &unknown, work)), -0.1);
+  EXPECT_GT(lowest(pin(rubber, {{}, 0.15}, &contacts, work)), -0.025 * contacts.leg);
+}
+
 TEST(Pin, LeavesArmsOnATorsoThatIsPinnedWithThem) {
   Alone work;
   const Motion walk = gait("walk", 3);
