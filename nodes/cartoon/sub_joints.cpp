@@ -67,13 +67,26 @@ std::vector<int> only_children(const Skeleton& skeleton, const std::vector<bool>
   return only;
 }
 
+// Joints from the root to the first branching one, such as a root on the ground: they place the body. None
+// where the root itself is in a group.
+std::vector<bool> placing_joints(const Skeleton& skeleton, const std::vector<int>& only,
+                                 const std::vector<std::vector<int>>& groups) {
+  std::vector<bool> placing(skeleton.joints.size());
+  for (const auto& group : groups)
+    if (group.front() == 0) return placing;
+  for (int j = 0; only[j] >= 0; j = only[j]) placing[j] = true;
+  return placing;
+}
+
 std::vector<int> counts_of(const Motion& motion, const SubJointParams& params, const std::vector<int>& only,
-                           const std::vector<double>& lengths, Work& work) {
+                           const std::vector<std::vector<int>>& groups, const std::vector<double>& lengths,
+                           Work& work) {
   const Skeleton& skeleton = motion.skeleton();
   const double height = height_of(skeleton, lengths);
+  const std::vector<bool> placing = placing_joints(skeleton, only, groups);
   const auto in_trunk = [&](int j) {
     const int parent = skeleton.joints[j].parent;
-    return parent >= 0 && only[parent] < 0 && lengths[j] < same_place * height;
+    return placing[j] || (parent >= 0 && only[parent] < 0 && lengths[j] < same_place * height);
   };
   std::vector<std::string> patterns;
   for (const auto& [pattern, count] : params.counts) patterns.push_back(pattern);
@@ -140,7 +153,7 @@ SubJoints lay_sub_joints(const Motion& motion, const SubJointParams& params, Wor
   for (const auto& group : sub.groups)
     for (std::size_t i = 0; i + 1 < group.size(); ++i) only[group[i]] = group[i + 1];
   const std::vector<double> lengths = lengths_of(motion);
-  const std::vector<int> counts = counts_of(motion, params, only, lengths, work);
+  const std::vector<int> counts = counts_of(motion, params, only, sub.groups, lengths, work);
 
   for (int j = 0; j < skeleton.size(); ++j) {
     const int above = skeleton.joints[j].parent;

@@ -42,10 +42,11 @@ struct SubJointParams {
 // Without a count given, a link of length v gets round(v / (0.0425 height)) sub-joints, at least 1, at most
 // 12: 58 on Gait's skeleton of 23 joints. The height is the rest pose's, or, where that is folded or
 // lies, 1.15 times the longest way from the first branching joint to a tip. One sub-joint each have
-// joints whose number of children, pruned ones left out, isn't one, and those that sit on a branching joint
-// (CMU's LHipJoint and LeftShoulder): their links cross the trunk, whose skin is bound to them. Where the
-// rest pose has no lengths, those of the first frame stand in. Throws as named_groups and chosen_joints do,
-// and ("bad-value") at `sub_joints` for a count over 1 on a joint with no single child, if named exactly.
+// joints whose number of children, pruned ones left out, isn't one, those from the root to the first
+// branching joint (which place the body, as a root on the ground does), and those that sit on a branching
+// joint (CMU's LHipJoint and LeftShoulder): their links cross the trunk, whose skin is bound to them. Where
+// the rest pose has no lengths, those of the first frame stand in. Throws as named_groups and chosen_joints
+// do, and ("bad-value") at `sub_joints` for a count over 1 on a joint with no single child, if named exactly.
 SubJoints lay_sub_joints(const Motion& motion, const SubJointParams& params, Work& work);
 
 }  // namespace kinegraph

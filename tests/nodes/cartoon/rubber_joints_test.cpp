@@ -72,6 +72,20 @@ TEST(SubJoints, LeaveLinksAcrossTheTrunkWhole) {
     EXPECT_EQ(sub.all[sub.first[clip.skeleton().find(joint)]].count, 1) << joint;
 }
 
+TEST(SubJoints, LeaveTheWayFromARootOnTheGroundWhole) {
+  KINEGRAPH_NEEDS_MOCAP();
+  Alone work;
+  for (const char* file : {"bandai/dataset-1_walk_normal_001.bvh", "gltf/Fox.glb"}) {
+    const Motion clip = cartoon_clip(file, 2);
+    const SubJoints sub = lay_sub_joints(clip, {}, work);
+    EXPECT_EQ(sub.all[0].count, 1) << file;
+    EXPECT_GT(sub.all.size(), clip.skeleton().joints.size() + 20) << file;
+  }
+  // A tube is a limb from its root on.
+  const SubJoints tube = lay_sub_joints(cartoon_clip("gltf/RiggedSimple.glb", 2), {}, work);
+  EXPECT_GT(tube.all[0].count, 1);
+}
+
 TEST(SubJoints, TakeCountsByPattern) {
   Alone work;
   const Motion walk = gait("walk", 1);
