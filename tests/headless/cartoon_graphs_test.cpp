@@ -1,4 +1,7 @@
 // The cartoon graphs of tests/cartoon on real clips, run by the real program and judged on what they export.
+#include <cmath>
+#include <map>
+
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/files/motion_file.h"
 #include "nodes/motion/kinematics.h"
@@ -71,6 +74,75 @@ TEST_F(CartoonGraphs, BoxingHitsItsTargetWhileFeetStandWhereTheyStood) {
   }
   EXPECT_GT(planted, 400);
   EXPECT_GE(meanwhile, 20);
+}
+
+// Largest change of a link's length over its mean.
+double stretch_of(const Motion& motion) {
+  const WorldMotion world = world_motion(motion);
+  double most = 0;
+  for (int j = 1; j < motion.joints(); ++j) {
+    const auto a = world.position(j), b = world.position(motion.skeleton().joints[j].parent);
+    double mean = 0;
+    for (std::size_t t = 0; t < motion.frames(); ++t)
+      mean += norm(a[t] - b[t]) / static_cast<double>(motion.frames());
+    if (mean < 0.02) continue;
+    for (std::size_t t = 0; t < motion.frames(); ++t)
+      most = std::max(most, std::fabs(norm(a[t] - b[t]) / mean - 1));
+  }
+  return most;
+}
+
+// How far hands and feet go from their mean place beside the hips, metres.
+double swing_of(const Motion& motion) {
+  const WorldMotion world = world_motion(motion);
+  double sum = 0;
+  for (const char* name : {"LeftHand", "RightHand", "LeftFoot", "RightFoot"}) {
+    const auto end = world.position(motion.skeleton().find(name)), hips = world.position(0);
+    Vec3 mean;
+    for (std::size_t t = 0; t < motion.frames(); ++t)
+      mean += (end[t] - hips[t]) / static_cast<double>(motion.frames());
+    for (std::size_t t = 0; t < motion.frames(); ++t)
+      sum += norm(end[t] - hips[t] - mean) / static_cast<double>(4 * motion.frames());
+  }
+  return sum;
+}
+
+TEST_F(CartoonGraphs, ShowTheFiveColumnsOfFigure14SideBySide) {
+  KINEGRAPH_NEEDS_MOCAP();
+  const std::string graph = std::string(KINEGRAPH_SOURCE_DIR) + "/tests/cartoon/fig14.kg.json";
+  const std::string clips = "mocap=" + mocap();
+  const std::vector<std::string> columns{"clip", "angles", "positions", "bands", "rubber"};
+  std::map<std::string, Motion> motions;
+  for (const std::string& column : columns) {
+    const Ran ran = run({"get", graph, column + ".motion", "-o", path("out/" + column + ".bvh"), "--var",
+                         clips, "--progress", "none"});
+    ASSERT_EQ(ran.exit, 0) << ran.err;
+    motions.emplace(column, *exported(column + ".bvh").motion());
+  }
+  const Motion& clip = motions.at("clip");
+  for (const auto& [column, motion] : motions) {
+    EXPECT_EQ(motion.frames(), clip.frames()) << column;
+    // The paper's own rubber has sub-joints; filters keep the skeleton.
+    EXPECT_EQ(motion.joints() > clip.joints(), column == "rubber") << column;
+    // Angles and bands of angles keep links rigid, positions and rubber stretch them.
+    if (column == "positions" || column == "rubber")
+      EXPECT_GT(stretch_of(motion), 0.2) << column;
+    else
+      EXPECT_LT(stretch_of(motion), 1e-4) << column;
+    if (column != "clip") {
+      EXPECT_GT(swing_of(motion), 1.05 * swing_of(clip)) << column;
+    }
+    RecordProperty(column, std::to_string(swing_of(motion)) + " m, " + std::to_string(stretch_of(motion)));
+  }
+  std::vector<std::string> draw{"picture", graph};
+  for (const std::string& column : columns) draw.push_back(column + ".motion");
+  for (const char* option : {"-o", "", "--var", "", "--progress", "none"}) draw.emplace_back(option);
+  draw[draw.size() - 5] = path("fig14.svg");
+  draw[draw.size() - 3] = clips;
+  const Ran ran = run(draw);
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  for (const std::string& column : columns)
+    EXPECT_THAT(read("fig14.svg"), testing::HasSubstr(column + ".motion"));
 }
 
 TEST_F(CartoonGraphs, GiveMotionsThatPictureCompareAndMetricsTake) {

@@ -36,7 +36,8 @@ inline std::vector<std::string> every_clip() {
   for (const auto& entry : fs::recursive_directory_iterator(mocap())) {
     const std::string name = fs::relative(entry.path(), mocap()).generic_string();
     const std::string ending = entry.path().extension().string();
-    if ((ending == ".bvh" || ending == ".amc" || ending == ".glb") && !name.starts_with("odd/derived/"))
+    if ((ending == ".bvh" || ending == ".amc" || ending == ".glb" || ending == ".gltf") &&
+        !name.starts_with("odd/derived/"))
       clips.push_back(name);
   }
   std::sort(clips.begin(), clips.end());
