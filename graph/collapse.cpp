@@ -10,6 +10,7 @@
 
 #include "graph/edit_draft.h"
 #include "graph/links.h"
+#include "graph/move_paths.h"
 #include "graph/nested.h"
 
 namespace kinegraph {
@@ -41,7 +42,8 @@ class Collapse {
   Collapsed make() {
     check_choice();
     made_.inside = copied(document_, registry_, {chosen_.begin(), chosen_.end()});
-    move_paths();
+    if (options_.folder != options_.inner_folder)
+      move_paths(made_.inside, registry_, {options_.folder, options_.inner_folder});
     made_.node = fresh_name(document_, "graph");
     publish_params();
     publish_inputs();
@@ -88,31 +90,6 @@ class Collapse {
     for (const std::string& name : registry_.names())
       if (registry_.find(name)->role == Role::graph) return name;
     throw Failure(refusal("there is no node type that runs graphs", ""));
-  }
-
-  // Relative paths start at the new file's folder.
-  void move_paths() {
-    if (options_.folder == options_.inner_folder) return;
-    const auto moved = [&](Json& value) {
-      if (!value.is_string() || value.string().empty() || value.string().starts_with("${")) return;
-      const fs::path path(value.string());
-      if (path.is_absolute()) return;
-      value = (fs::path(options_.folder) / path)
-                  .lexically_normal()
-                  .lexically_relative(options_.inner_folder)
-                  .generic_string();
-    };
-    for (auto& [name, node] : made_.inside.nodes) {
-      const NodeType* type = known_type(registry_, node);
-      for (auto& [key, value] : node.params) {
-        const Param* param = type ? type->find_param(key) : nullptr;
-        if (!param) continue;
-        if (param->kind == ParamType::Kind::open_file) moved(value);
-        if (param->kind == ParamType::Kind::list && !param->parts.empty() &&
-            param->parts[0].kind == ParamType::Kind::open_file && value.is_array())
-          for (Json& one : value.array()) moved(one);
-      }
-    }
   }
 
   static std::string fresh(const std::string& wanted, const std::string& node, std::set<std::string>& taken) {

@@ -84,6 +84,11 @@ void History::extend(const Edit& edit) {
   }
 }
 
+void History::rewrite(const std::function<void(Change&)>& with) {
+  for (Edit& step : steps_)
+    for (Change& change : step.changes) with(change);
+}
+
 const Edit& History::undo(Document& document) {
   if (!can_undo()) throw std::logic_error("there is nothing to undo");
   const Edit& step = steps_[--position_];

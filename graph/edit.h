@@ -1,6 +1,7 @@
 // Edits of a document and their inverses. Undo lives here, without any window: a gesture makes one Edit, History keeps
 // them. Every Edit is a list of unit changes, so its inverse is the same list turned round.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,6 +64,8 @@ class History {
   bool can_redo() const { return position_ < steps_.size(); }
   const Edit& undo(Document& document);  // applies the inverse and returns the step that was undone
   const Edit& redo(Document& document);
+  // Changes what the steps hold, never how many they are: when paths move with the file, see move_paths.h.
+  void rewrite(const std::function<void(Change&)>& with);
   void mark_saved() { saved_ = position_; }
   bool is_saved() const { return saved_ == position_; }
   const std::vector<Edit>& steps() const { return steps_; }

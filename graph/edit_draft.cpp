@@ -85,6 +85,7 @@ void EditDraft::change_in_ui(const std::string& name, const std::optional<std::s
   for (const auto& [title, frame] : frames) {
     const Json* nodes = frame.find("nodes");
     if (!nodes || !nodes->is_array()) continue;
+    if (std::find(nodes->array().begin(), nodes->array().end(), Json(name)) == nodes->array().end()) continue;
     Json::Array names;
     for (const Json& element : nodes->array()) {
       if (!(element == Json(name)))
@@ -92,8 +93,12 @@ void EditDraft::change_in_ui(const std::string& name, const std::optional<std::s
       else if (instead)
         names.push_back(*instead);
     }
-    Json after = frame;
-    after.object()["nodes"] = std::move(names);
+    // A frame goes with the last of its nodes: around nothing nobody could see it any more.
+    std::optional<Json> after;
+    if (!names.empty()) {
+      after = frame;
+      after->object()["nodes"] = std::move(names);
+    }
     set({Unit::Kind::ui_frame, title, {}}, std::move(after));
   }
 }

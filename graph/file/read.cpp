@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "graph/file/migrate.h"
+#include "graph/missing.h"
 
 namespace kinegraph {
 
@@ -152,11 +153,7 @@ class Reader {
     }
     const NodeType* type = registry_.find(type_name->string());
     if (!type) {
-      const std::string near = nearest(type_name->string(), registry_.names());
-      add(warning("unknown-type", fmt::format("there is no node type {}", in_quotes(type_name->string())))
-              .hinting(near.empty() ? "the node is kept as it stands and can't run"
-                                    : fmt::format("did you mean \"{}\"?", near)),
-          type_name->place, name);
+      add(unknown_type(registry_, type_name->string()), type_name->place, name);
       return missing_node_from_json(std::move(json));
     }
     int version = 1;
@@ -169,10 +166,7 @@ class Reader {
             stored->place, name);
     }
     if (version > type->version) {
-      add(warning("newer-version",
-                  fmt::format("{} of version {}, this program knows {}", type->name, version, type->version))
-              .hinting("the node is kept as it stands and can't run; a newer Kinegraph knows it"),
-          json.find("version")->place, name);
+      add(newer_version(*type, version), json.find("version")->place, name);
       return missing_node_from_json(std::move(json));
     }
     if (version == type->version) return read_known_node(name, json, *type);

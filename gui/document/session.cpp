@@ -9,6 +9,8 @@
 #include "graph/file/read.h"
 #include "graph/file/write.h"
 #include "graph/file/write_atomically.h"
+#include "graph/missing.h"
+#include "graph/move_paths.h"
 #include "graph/nested.h"
 #include "graph/validate.h"
 
@@ -119,14 +121,23 @@ void Session::save_as(const QString& path) {
     throw Failure(error("read-only", "the graph was made by a newer Kinegraph and is open for reading only")
                       .in_file(page_->path.toStdString())
                       .hinting("update Kinegraph to edit it"));
-  const std::string saved = text();
+  const bool moved = path != page_->path;
+  const Move move{folder().toStdString(), QFileInfo(path).absolutePath().toStdString()};
+  const bool elsewhere = moved && (page_->path.isEmpty() || move.from != move.to);
+  Document document = page_->document;
+  if (elsewhere) move_paths(document, registry_, move);
+  const std::string saved = write_document(document, registry_);
   write_file_atomically(path.toStdString(), saved);
   page_->text_on_disk = saved;
-  const bool moved = path != page_->path;
   discard_autosave();
   page_->path = QFileInfo(path).absoluteFilePath();
+  if (elsewhere) {
+    move_paths(page_->history, page_->document, registry_, move);
+    page_->document = std::move(document);
+  }
   page_->history.mark_saved();
   if (moved) check_meaning();  // relative paths start elsewhere now
+  if (elsewhere) emit changed();
   emit file_changed();
   if (moved) emit meaning_changed();
 }
@@ -260,6 +271,10 @@ void Session::check_meaning() {
   options.file = title().toStdString();
   options.folder = folder().toStdString();
   page_->problems = page_->document.read_only ? Diagnostics{} : validate(page_->document, registry_, options);
+  if (!page_->document.read_only)
+    for (const auto& [name, node] : page_->document.nodes)
+      if (auto problem = why_missing(registry_, node))
+        page_->problems.push_back(std::move(*problem).at_node(name).in_file(options.file, node.place));
   emit problems_changed();
 }
 

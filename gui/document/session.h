@@ -41,7 +41,8 @@ class Session : public QObject {
   QString written_path(const QString& absolute) const;
 
   // Reading and writing. Problems that keep a file from opening leave the session as it was and are returned;
-  // warnings of a file that opened are returned too. Saving throws Failure when it can't.
+  // warnings of a file that opened are returned too. Saving throws Failure when it can't; into another folder
+  // it rewrites relative paths, and absolute ones that lie near, so that they name the same files from there.
   Diagnostics open(const QString& path);
   Diagnostics open_text(const std::string& text, const QString& path);
   void clear();

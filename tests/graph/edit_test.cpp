@@ -106,6 +106,12 @@ TEST_F(Editing, DeletingTakesLinksPublishingAndLayoutAlong) {
   EXPECT_EQ(compact(*document_.ui.frames.at("f").find("nodes")), R"(["sneak"])");
 }
 
+// A frame is drawn around its nodes: around none it would stay in the file where nobody sees it.
+TEST_F(Editing, AFrameGoesWithTheLastOfItsNodes) {
+  does(remove_nodes(document_, registry_, {"walk", "sneak"}, false));
+  EXPECT_TRUE(document_.ui.frames.empty());
+}
+
 TEST_F(Editing, DeletingReconnectsPastWhatIsPassedOn) {
   does(remove_nodes(document_, registry_, {"transfer", "dot"}, true));
   EXPECT_EQ(link("both", "motions"), R"(["walk.motion", "walk.motion", "walk.motion"])");

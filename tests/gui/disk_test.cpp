@@ -8,6 +8,8 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QTimer>
+#include <QToolButton>
+#include <QTreeWidget>
 
 #include "graph/file/write.h"
 #include "gui/window/relink_dialog.h"
@@ -233,6 +235,81 @@ TEST(EditorOnDisk, ANodeOfAnUnknownTypeIsKeptAndSaid) {
   ASSERT_FALSE(editor.session().is_modified());
   ASSERT_TRUE(file.open(QIODevice::ReadOnly));
   EXPECT_TRUE(file.readAll().contains(R"("depth": [1, {"of": "sleep"}])"));
+}
+
+struct NotSavedYet : Editor {
+  NotSavedYet() : Editor(true) {
+    for (const char* name : {"clips", "graphs", "elsewhere"}) QDir(folder.path()).mkpath(name);
+    for (const char* name : {"walk.bvh", "sneak.bvh"})
+      QFile::copy(graphs + "clips/" + name, folder.filePath(QString("clips/") + name));
+    load = add("load");
+    choose("clips/walk.bvh");
+  }
+  void choose(const QString& file) {
+    QTest::mouseClick(&canvas(), Qt::LeftButton, {}, middle(load));
+    auto* row = window.findChild<QWidget*>("param_file");
+    ASSERT_TRUE(row);
+    name_file(folder.filePath(file));
+    QTest::mouseClick(row->findChild<QToolButton*>(), Qt::LeftButton);
+    settle();
+  }
+  void save_as(const QString& file) {
+    name_file(folder.filePath(file));
+    key(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
+  }
+  std::string written() { return document().nodes.at(load).params.find("file")->second.string(); }
+  bool all_found() { return !has_error(session().problems()); }
+  std::string load;
+};
+
+TEST(EditorOnDisk, AClipChosenBeforeTheFirstSaveIsWrittenRelativeToTheGraph) {
+  NotSavedYet editor;
+  EXPECT_TRUE(QDir::isAbsolutePath(QString::fromStdString(editor.written())));
+  editor.save_as("graphs/new.kg.json");
+  EXPECT_EQ(editor.written(), "../clips/walk.bvh");
+  EXPECT_TRUE(editor.all_found());
+  EXPECT_FALSE(editor.session().is_modified());
+  QFile file(editor.folder.filePath("graphs/new.kg.json"));
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  EXPECT_EQ(file.readAll().toStdString(), editor.session().text());
+  EXPECT_FALSE(editor.session().text().find(editor.folder.path().toStdString()) != std::string::npos);
+}
+
+TEST(EditorOnDisk, SavedElsewhereAGraphStillFindsItsClipsAndSoDoesWhatIsUndone) {
+  NotSavedYet editor;
+  editor.save_as("graphs/new.kg.json");
+  editor.choose("clips/sneak.bvh");
+  EXPECT_EQ(editor.written(), "../clips/sneak.bvh");
+  QDir(editor.folder.path()).mkpath("elsewhere/deep");
+  editor.save_as("elsewhere/deep/new.kg.json");
+  EXPECT_EQ(editor.written(), "../../clips/sneak.bvh");
+  EXPECT_TRUE(editor.all_found());
+  const std::string saved = editor.session().text();
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(editor.written(), "../../clips/walk.bvh");
+  EXPECT_TRUE(editor.all_found());
+  EXPECT_TRUE(editor.session().is_modified());
+  editor.key(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(editor.session().text(), saved);
+  EXPECT_FALSE(editor.session().is_modified());
+}
+
+TEST(EditorOnDisk, AnUnknownTypeStandsAmongTheProblems) {
+  OnDisk editor;
+  std::string text = editor.session().text();
+  const std::size_t at = text.find("\"Footskate\"");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 11, "\"Footskaet\"");
+  editor.rewrite(text);
+  Editor second;
+  ASSERT_TRUE(second.window.open(editor.path));
+  auto* list = second.window.findChild<QTreeWidget*>("problem_list");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return list->topLevelItemCount() > 0; }));
+  const auto* item = list->topLevelItem(0);
+  EXPECT_TRUE(item->text(1).contains("Footskaet")) << item->text(1).toStdString();
+  EXPECT_TRUE(item->text(2).contains("Footskate")) << item->text(2).toStdString();
+  EXPECT_EQ(second.session().text(), text);
 }
 
 TEST(EditorOnDisk, ADamagedClipFailsItsNodeWithWhatToDo) {
