@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "gui/canvas/clear_wires.h"
+
 namespace kinegraph {
 namespace {
 
@@ -166,6 +168,11 @@ std::map<std::string, QPointF> arranged(const GraphScene& scene, const std::set<
   for (auto& [name, at] : positions)
     at = QPointF(std::round(at.x() / GraphScene::step) * GraphScene::step,
                  std::round(at.y() / GraphScene::step) * GraphScene::step);
+  positions = clear_wires(scene, std::move(positions));
+  if (!nodes.empty()) return positions;
+  top = 1e300;
+  for (const auto& [name, at] : positions) top = std::min(top, at.y());
+  for (auto& [name, at] : positions) at.ry() += before.top() - top;
   return positions;
 }
 

@@ -16,6 +16,21 @@
 
 namespace kinegraph {
 
+namespace {
+
+// As long as nothing is typed: families in the order of a motion's way through a graph.
+void in_order_of_families(std::vector<std::string>& types, const Registry& registry) {
+  static const std::string_view way[] = {"files", "motion",  "time",  "style", "components",
+                                         "feet",  "cartoon", "judge", "graph"};
+  const auto place = [&](const std::string& type) {
+    return std::find(std::begin(way), std::end(way), registry.find(type)->category) - std::begin(way);
+  };
+  std::stable_sort(types.begin(), types.end(),
+                   [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+}
+
+}  // namespace
+
 // Where a new node hides none: below those that it would lie on.
 QPointF GraphCanvas::free_place(QPointF graph) const {
   constexpr double least_height = 150, apart = 20;
@@ -42,8 +57,9 @@ std::string GraphCanvas::add(const std::string& type, QPointF graph, std::option
 }
 
 void GraphCanvas::search_to_add(QPointF graph, std::optional<PortAt> port) {
-  const std::vector<std::string> types =
+  std::vector<std::string> types =
       port ? fitting_types(session_.document(), session_.registry(), *port) : session_.registry().names();
+  in_order_of_families(types, session_.registry());
   std::vector<SearchBox::Entry> entries;
   for (const std::string& name : types) {
     const NodeType& type = *session_.registry().find(name);

@@ -12,6 +12,7 @@
 #include "graph/nested.h"
 #include "gui/canvas/canvas_edits.h"
 #include "gui/canvas/graph_canvas.h"
+#include "gui/window/actions.h"
 
 namespace kinegraph {
 namespace {
@@ -67,18 +68,7 @@ void GraphCanvas::press_left(QMouseEvent* event, QPointF at) {
     return begin(move_gesture(*this, view, session_.selected(), selected_notes_, false));
   }
   if (const SceneWire* wire = scene_.wire_at(at, 6 / zoom_); wire && (keys & Qt::ControlModifier)) {
-    // A dot on the wire.
-    const SceneWire on = *wire;
-    session_.perform([&](const Document& document, const Registry& registry) {
-      std::string name;
-      std::vector<EditStep> steps{[&](const Document& d, const Registry& r) {
-                                    return add_new_node(d, r, {"Dot", at - QPointF(10, 10), {}, {}}, &name);
-                                  },
-                                  [&](const Document& d, const Registry& r) {
-                                    return insert_on_link(d, r, name, on.to, on.to_port, on.index);
-                                  }};
-      return one_after_another(document, registry, "Add a dot", steps);
-    });
+    put_dot(*wire, at);
     return;
   }
   if (keys & Qt::ControlModifier) return begin(cut_gesture(*this, view));
@@ -130,28 +120,69 @@ void GraphCanvas::mouseReleaseEvent(QMouseEvent* event) {
 void GraphCanvas::hover(QPointF view) {
   const QPointF at = to_graph(view);
   const auto port = scene_.port_at(at, port_reach / std::max(zoom_, 0.4));
-  if (port != hover_) {
+  const SceneNode* node = port ? nullptr : scene_.node_at(at);
+  const SceneWire* wire = port || node ? nullptr : scene_.wire_at(at, 6 / zoom_);
+  const std::string over = node ? node->name : std::string();
+  const auto end = wire ? std::optional(PortAt{wire->to, wire->to_port, true}) : std::nullopt;
+  const std::size_t index = wire ? wire->index : 0;
+  if (port != hover_ || over != hover_node_ || end != hover_wire_ || index != hover_index_) {
     hover_ = port;
+    hover_node_ = over;
+    hover_wire_ = end;
+    hover_index_ = index;
     setCursor(space_ ? Qt::OpenHandCursor : hover_ ? Qt::CrossCursor : Qt::ArrowCursor);
     update();
   }
   QString text;
-  if (hover_) {
-    const SceneNode* node = scene_.node(hover_->node);
-    const ScenePort* spot = node->port(hover_->input, hover_->port);
-    text = QString::fromStdString(hover_->node + "." + hover_->port);
-    if (spot && !spot->type.empty()) text += " · " + QString::fromStdString(spot->type);
-    if (spot && !spot->help.isEmpty()) text += " · " + spot->help;
-  } else if (const SceneWire* wire = scene_.node_at(at) ? nullptr : scene_.wire_at(at, 6 / zoom_)) {
+  if (hover_)
+    text = port_tip(*hover_);
+  else if (wire)
     text =
         QString::fromStdString(wire->from + "." + wire->from_port + " → " + wire->to + "." + wire->to_port) +
         tr(" · Ctrl+click puts a dot, Ctrl+drag cuts");
-  }
   emit hovered_text(text);
+}
+
+bool GraphCanvas::is_hovered(const SceneWire& wire) const {
+  return hover_wire_ && !gesture_ && wire.to == hover_wire_->node && wire.to_port == hover_wire_->port &&
+         wire.index == hover_index_;
+}
+
+QString GraphCanvas::port_tip(const PortAt& at) const {
+  const SceneNode* node = scene_.node(at.node);
+  const ScenePort* port = node ? node->port(at.input, at.port) : nullptr;
+  QString text = QString::fromStdString(at.node + "." + at.port);
+  if (port && !port->type.empty()) text += " · " + QString::fromStdString(port->type);
+  if (port && port->optional) text += tr(" · may stay open");
+  if (port && !port->help.isEmpty()) text += " · " + port->help;
+  return text;
+}
+
+void GraphCanvas::put_dot(const SceneWire& wire, QPointF at) {
+  const SceneWire on = wire;
+  session_.perform([&](const Document& document, const Registry& registry) {
+    std::string name;
+    std::vector<EditStep> steps{[&](const Document& d, const Registry& r) {
+                                  return add_new_node(d, r, {"Dot", at - QPointF(10, 10), {}, {}}, &name);
+                                },
+                                [&](const Document& d, const Registry& r) {
+                                  return insert_on_link(d, r, name, on.to, on.to_port, on.index);
+                                }};
+    return one_after_another(document, registry, "Add a dot", steps);
+  });
+}
+
+void GraphCanvas::cut_wire(const SceneWire& wire) {
+  const SceneWire on = wire;
+  session_.perform([&](const Document& d, const Registry& r) {
+    return kinegraph::disconnect(d, r, on.to, on.to_port, on.index);
+  });
 }
 
 void GraphCanvas::leaveEvent(QEvent*) {
   hover_.reset();
+  hover_node_.clear();
+  hover_wire_.reset();
   emit hovered_text({});
   update();
 }
@@ -206,33 +237,55 @@ void GraphCanvas::contextMenuEvent(QContextMenuEvent* event) {
       to_graph(event->reason() == QContextMenuEvent::Mouse ? QPointF(event->pos()) : QRectF(rect()).center());
   const SceneNode* node =
       event->reason() == QContextMenuEvent::Mouse ? scene_.node_at(at) : scene_.node(session_.current());
+  const bool by_mouse = event->reason() == QContextMenuEvent::Mouse;
+  const SceneNote* note = node || !by_mouse ? nullptr : scene_.note_at(at);
+  const SceneWire* wire = node || note || !by_mouse ? nullptr : scene_.wire_at(at, 6 / zoom_);
+  const SceneFrame* frame = node || note || wire || !by_mouse ? nullptr : scene_.frame_title_at(at);
   QMenu menu(this);
   if (node) {
-    if (!session_.selected().count(node->name)) session_.select({node->name}, node->name);
-    menu.addAction(node->enabled ? tr("Disable") : tr("Enable"), this, &GraphCanvas::toggle_enabled);
-    menu.addAction(tr("Rename…"), this, &GraphCanvas::rename_selected);
-    menu.addAction(tr("Colour…"), this, &GraphCanvas::choose_color);
-    menu.addAction(tr("Link from here…"), this, &GraphCanvas::link_by_search);
-    menu.addAction(tr("Take out of its links"), this, &GraphCanvas::take_out_selected);
-    menu.addAction(tr("Group in a frame"), this, &GraphCanvas::group_in_frame);
-    const std::string name = node->name;
-    if (session_.document().nodes.at(name).nested)
-      menu.addAction(tr("Open its graph"), this,
-                     [this, name] { emit opened_inside(QString::fromStdString(name)); });
-    menu.addSeparator();
-    menu.addAction(tr("Cut"), this, &GraphCanvas::cut_selected);
-    menu.addAction(tr("Copy"), this, &GraphCanvas::copy_selected);
-    menu.addAction(tr("Duplicate"), this, &GraphCanvas::duplicate);
-    menu.addAction(tr("Delete"), this, &GraphCanvas::remove_selected);
+    fill_menu_of_node(menu, *node);
+  } else if (note) {
+    session_.select({});
+    select_decor({}, {note->name});
+    menu.addAction(menu_text("delete"), this, &GraphCanvas::remove_selected);
+  } else if (wire) {
+    const SceneWire on = *wire;
+    menu.addAction(tr("Put a dot here") + "\t" + tr("Ctrl+click"), this, [this, on, at] { put_dot(on, at); });
+    menu.addAction(tr("Cut this link") + "\t" + tr("Ctrl+drag"), this, [this, on] { cut_wire(on); });
+  } else if (frame) {
+    const std::string name = frame->name;
+    session_.select({});
+    select_decor({name}, {});
+    menu.addAction(tr("Remove the frame"), this, &GraphCanvas::remove_selected);
   } else {
-    menu.addAction(tr("Add a node…"), this, [this, at] { search_to_add(at); });
-    menu.addAction(tr("Add a note"), this, &GraphCanvas::add_note);
-    menu.addAction(tr("Paste"), this, &GraphCanvas::paste);
+    menu.addAction(tr("Add a node…") + "\t" + tr("Tab"), this, [this, at] { search_to_add(at); });
+    menu.addAction(tr("Add a note") + "\t" + tr("N"), this, &GraphCanvas::add_note);
+    menu.addAction(menu_text("paste"), this, &GraphCanvas::paste);
     menu.addSeparator();
-    menu.addAction(tr("Arrange"), this, &GraphCanvas::arrange);
-    menu.addAction(tr("Show all"), this, &GraphCanvas::frame_all);
+    menu.addAction(menu_text("arrange"), this, &GraphCanvas::arrange);
+    menu.addAction(menu_text("frame_all"), this, &GraphCanvas::frame_all);
   }
   menu.exec(event->globalPos());
+}
+
+void GraphCanvas::fill_menu_of_node(QMenu& menu, const SceneNode& node) {
+  const std::string name = node.name;
+  if (!session_.selected().count(name)) session_.select({name}, name);
+  menu.addAction((node.enabled ? tr("Disable") : tr("Enable")) + "\t" + tr("D"), this,
+                 &GraphCanvas::toggle_enabled);
+  menu.addAction(menu_text("rename"), this, &GraphCanvas::rename_selected);
+  menu.addAction(menu_text("color"), this, &GraphCanvas::choose_color);
+  menu.addAction(tr("Link from here…") + "\t" + tr("L"), this, &GraphCanvas::link_by_search);
+  menu.addAction(menu_text("take_out"), this, &GraphCanvas::take_out_selected);
+  menu.addAction(menu_text("group"), this, &GraphCanvas::group_in_frame);
+  if (session_.document().nodes.at(name).nested)
+    menu.addAction(tr("Open its graph") + "\t" + tr("Ctrl+Return"), this,
+                   [this, name] { emit opened_inside(QString::fromStdString(name)); });
+  menu.addSeparator();
+  menu.addAction(menu_text("cut"), this, &GraphCanvas::cut_selected);
+  menu.addAction(menu_text("copy"), this, &GraphCanvas::copy_selected);
+  menu.addAction(menu_text("duplicate"), this, &GraphCanvas::duplicate);
+  menu.addAction(menu_text("delete"), this, &GraphCanvas::remove_selected);
 }
 
 void GraphCanvas::dragEnterEvent(QDragEnterEvent* event) {
@@ -282,6 +335,7 @@ QString GraphCanvas::node_tip(const SceneNode& node) const {
 QString GraphCanvas::tool_tip(QPointF view) const {
   if (gesture_) return {};
   const QPointF at = to_graph(view);
+  if (const auto port = scene_.port_at(at, port_reach / std::max(zoom_, 0.4))) return port_tip(*port);
   if (const SceneNode* node = scene_.node_at(at)) return node_tip(*node);
   return {};
 }

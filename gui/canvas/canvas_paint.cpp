@@ -104,7 +104,7 @@ void GraphCanvas::paint_wires(QPainter& p, const QRectF& seen) {
     const SceneNode* to = scene_.node(wire.to);
     const bool chosen = session_.selected().count(wire.from) || session_.selected().count(wire.to);
     if (to && !to->enabled) color.setAlphaF(0.45f);
-    p.setPen(QPen(color, chosen ? width * 1.5 : width));
+    p.setPen(QPen(color, is_hovered(wire) ? width * 2.2 : chosen ? width * 1.5 : width));
     line.clear();
     // A picture of a curve that is a few pixels long needs no twenty pieces.
     const qsizetype stride = zoom_ < 0.4 && !resting_ ? 4 : zoom_ < 0.3 ? 2 : 1;
@@ -125,6 +125,10 @@ void GraphCanvas::paint_nodes(QPainter& p, const QRectF& seen) {
     if (session_.selected().count(node.name)) {
       const bool current = session_.current() == node.name;
       p.setPen(QPen(theme_->accent, current ? 5.5 : 3.5));
+      p.setBrush(Qt::NoBrush);
+      p.drawRoundedRect(box.adjusted(-0.5, -0.5, 0.5, 0.5), 7 * zoom_, 7 * zoom_);
+    } else if (node.name == hover_node_ && !gesture_) {
+      p.setPen(QPen(theme_->wire, 2.5));
       p.setBrush(Qt::NoBrush);
       p.drawRoundedRect(box.adjusted(-0.5, -0.5, 0.5, 0.5), 7 * zoom_, 7 * zoom_);
     }

@@ -39,11 +39,16 @@ double fuzzy_score(const QString& typed, const QString& name, const QStringList&
   if (name.contains(text, Qt::CaseInsensitive)) return 1.5 + shorter;
   double best = letters_in_order(text, name);
   if (best < 0.45) best = 0;
-  for (const QString& keyword : keywords)
-    if (keyword.startsWith(text, Qt::CaseInsensitive))
+  // The family counts before other words that a node is found by, a whole word before its start.
+  for (const QString& keyword : keywords) {
+    const bool is_family = &keyword == &keywords.front();
+    if (keyword.compare(text, Qt::CaseInsensitive) == 0)
+      best = std::max(best, is_family ? 1.4 : 1.3);
+    else if (keyword.startsWith(text, Qt::CaseInsensitive))
       best = std::max(best, 1.2);
     else if (text.size() > 2 && keyword.contains(text, Qt::CaseInsensitive))
       best = std::max(best, 1.0);
+  }
   return best > 0 ? best + shorter : 0;
 }
 

@@ -70,8 +70,10 @@ void GraphCanvas::find_problems() {
   problems_.clear();
   for (const Diagnostic& problem : session_.problems()) {
     if (problem.node.empty() || problem.severity == Severity::info) continue;
-    Severity& worst = problems_.emplace(problem.node, problem.severity).first->second;
-    worst = std::max(worst, problem.severity);
+    // A node that waits for its links is no failure: every node begins so.
+    const Severity severity = problem.code == "open-input" ? Severity::warning : problem.severity;
+    Severity& worst = problems_.emplace(problem.node, severity).first->second;
+    worst = std::max(worst, severity);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "gui/evaluation/evaluation.h"
 #include "gui/window/theme.h"
 
+class QMenu;
 class QPlainTextEdit;
 
 namespace kinegraph {
@@ -118,7 +119,12 @@ class GraphCanvas : public QWidget {
   QPointF pointer() const;  // in the graph; the middle of the view where the mouse is elsewhere
   std::vector<std::string> selection() const;
   void edit_text(QRectF graph, const QString& text, std::function<void(const QString&)> done);
+  bool is_hovered(const SceneWire& wire) const;
+  void cut_wire(const SceneWire& wire);
+  void put_dot(const SceneWire& wire, QPointF at);
+  void fill_menu_of_node(QMenu& menu, const SceneNode& node);
   QString tool_tip(QPointF view) const;
+  QString port_tip(const PortAt& port) const;
   QString node_tip(const SceneNode& node) const;
   void press_left(QMouseEvent* event, QPointF at);
 
@@ -137,6 +143,9 @@ class GraphCanvas : public QWidget {
   QTimer rest_;
   std::unique_ptr<CanvasGesture> gesture_;
   std::optional<PortAt> hover_;
+  std::string hover_node_;
+  std::optional<PortAt> hover_wire_;  // by the input that it ends at
+  std::size_t hover_index_ = 0;       // among the links of that input
   std::set<std::string> selected_frames_, selected_notes_;
   QString hint_;
   QPointF hint_at_;

@@ -104,17 +104,24 @@ const SceneNode* GraphScene::node_at(QPointF at) const {
 }
 
 std::optional<PortAt> GraphScene::port_at(QPointF at, double reach) const {
+  // Later nodes lie on top of earlier ones and hide their ports.
+  const auto is_covered = [&](std::size_t owner, QPointF point) {
+    for (std::size_t i = owner + 1; i < nodes_.size(); ++i)
+      if (nodes_[i].rect.contains(point)) return true;
+    return false;
+  };
   double best = reach;
   std::optional<PortAt> found;
-  for (const SceneNode& one : nodes_) {
-    if (!one.rect.adjusted(-reach, -reach, reach, reach).contains(at)) continue;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const SceneNode& one = nodes_[i];
+    if (!one.rect.adjusted(-reach, -reach, reach, reach).contains(at) || is_covered(i, at)) continue;
     for (bool input : {true, false})
       for (const ScenePort& port : input ? one.inputs : one.outputs) {
-        const double distance = QLineF(at, one.rect.topLeft() + port.at).length();
-        if (distance < best) {
-          best = distance;
-          found = PortAt{one.name, port.name, input};
-        }
+        const QPointF place = one.rect.topLeft() + port.at;
+        const double distance = QLineF(at, place).length();
+        if (distance >= best || is_covered(i, place)) continue;
+        best = distance;
+        found = PortAt{one.name, port.name, input};
       }
   }
   return found;

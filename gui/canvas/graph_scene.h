@@ -90,7 +90,7 @@ class GraphScene {
   // While nodes are dragged they are drawn elsewhere than they are saved.
   void shift(const std::set<std::string>& nodes, QPointF by);
 
-  // Under a point; the topmost. `reach` in graph units.
+  // Under a point; the topmost, and none that another node covers. `reach` in graph units.
   const SceneNode* node_at(QPointF at) const;
   std::optional<PortAt> port_at(QPointF at, double reach) const;
   const SceneWire* wire_at(QPointF at, double reach) const;

@@ -32,8 +32,8 @@ QPolygonF ring_of_corners(int corners, double radius, double turned) {
   return polygon;
 }
 
-// The families have a colour each, a thin bar above the title, so that a graph's parts are told apart from
-// afar.
+}  // namespace
+
 QColor family_color(const Theme& theme, const SceneNode& node) {
   if (!node.color.isEmpty()) {
     const QColor own(node.color);
@@ -46,6 +46,8 @@ QColor family_color(const Theme& theme, const SceneNode& node) {
   auto found = types.find(node.category);
   return found == types.end() ? theme.wire : theme.port(found->second);
 }
+
+namespace {
 
 void draw_badge(QPainter& p, QPointF centre, const QColor& color, const QColor& ink, const QString& sign) {
   p.setPen(Qt::NoPen);
@@ -138,6 +140,8 @@ QString shown_state(NodeStatus::State state) {
       return QObject::tr("disabled");
     case State::missing:
       return QObject::tr("missing");
+    case State::incomplete:
+      return QObject::tr("incomplete");
   }
   return {};
 }
@@ -152,6 +156,7 @@ QColor state_color(const Theme& theme, NodeStatus::State state) {
     case State::failed:
       return theme.error;
     case State::blocked:
+    case State::incomplete:
       return theme.warning;
     case State::missing:
       return theme.missing;
@@ -162,12 +167,41 @@ QColor state_color(const Theme& theme, NodeStatus::State state) {
 
 namespace {
 
+// What stands where a motion's still will be.
+QString instead_of_still(NodeStatus::State state) {
+  using State = NodeStatus::State;
+  switch (state) {
+    case State::idle:
+      return QObject::tr("click to see it");
+    case State::waiting:
+    case State::running:
+      return QObject::tr("in the making");
+    case State::blocked:
+      return QObject::tr("waits for what is before it");
+    case State::incomplete:
+      return QObject::tr("link what it needs");
+    case State::failed:
+      return QObject::tr("see Problems");
+    default:
+      return {};
+  }
+}
+
 // Farther limbs first: the right side, then the middle, then the left.
-void draw_still(QPainter& p, const QRectF& box, const Still* still, const Theme& theme) {
+void draw_still(QPainter& p, const QRectF& box, const Still* still, const QString& instead,
+                const Theme& theme) {
+  if (!still || still->limbs.empty()) {
+    p.setPen(QPen(theme.line, 1, Qt::DashLine));
+    p.setBrush(Qt::NoBrush);
+    p.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 3, 3);
+    p.setPen(theme.faint_text);
+    p.setFont(font_of(11));
+    draw_text(p, box.adjusted(4, 0, -4, 0), Qt::AlignHCenter, instead);
+    return;
+  }
   p.setPen(Qt::NoPen);
   p.setBrush(theme.still_ground);
   p.drawRoundedRect(box, 3, 3);
-  if (!still || still->limbs.empty()) return;
   p.save();
   QPainterPath inside;
   inside.addRoundedRect(box, 3, 3);
@@ -195,6 +229,14 @@ void draw_still(QPainter& p, const QRectF& box, const Still* still, const Theme&
   p.restore();
 }
 
+// "needs motion", "needs motion, style".
+QString what_it_needs(const NodeStatus& status) {
+  QStringList ports;
+  for (const Diagnostic& open : status.diagnostics)
+    if (!open.port.empty()) ports << QString::fromStdString(open.port);
+  return ports.isEmpty() ? QObject::tr("needs an input") : QObject::tr("needs %1").arg(ports.join(", "));
+}
+
 bool has_warning(const NodeStatus* status, std::optional<Severity> problem) {
   return problem == Severity::warning ||
          (status && std::any_of(status->diagnostics.begin(), status->diagnostics.end(),
@@ -213,13 +255,14 @@ void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, No
   // The dot stands beside the name, or in the corner above a name that needs the room.
   const double smallest = 8.5 / zoom, full = box.width() - 1.6 * left;
   const bool in_corner = with_dot && wide(smallest) > full - 4.2 * dot;
-  const bool with_still = !node.still.isNull() && zoom >= 0.3;
+  const Still* known = status ? status->still.get() : nullptr;
+  const bool with_still = !node.still.isNull() && zoom >= 0.3 && known && !known->limbs.empty();
   QRectF words(left, 3 / zoom, with_dot && !in_corner ? full - 4.2 * dot : full, box.height() - 3 / zoom);
   if (with_still) {
     const double height = std::min(1.15 * node.still.height(), box.height() * 0.5);
     const QRectF still(8, box.height() - 7 - height, box.width() - 16, height);
     words.setBottom(still.top());
-    draw_still(p, still, status ? status->still.get() : nullptr, theme);
+    draw_still(p, still, known, {}, theme);
   }
   // A long name is written smaller before letters are left out.
   double pixels = std::clamp(11 / zoom, 14.0, 44.0);
@@ -310,20 +353,23 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
                   ? (status->seconds >= 0.0005 ? shown_seconds(status->seconds) + " · " : QString()) +
                         QObject::tr("cached")
                   : shown_seconds(status->seconds);
+    else if (state == State::incomplete)
+      right = what_it_needs(*status);
     else if (state != State::idle)
       right = shown_state(state);
     const double right_width = right.isEmpty() ? 0 : QFontMetricsF(p.font()).horizontalAdvance(right) + 4;
     draw_text(p, QRectF(12, 21, box.width() - 28 - right_width, 16), Qt::AlignLeft,
               QString::fromStdString(node.type));
     if (!right.isEmpty()) {
-      if (state == State::failed || state == State::blocked || state == State::missing)
+      if (state == State::failed || state == State::blocked || state == State::missing ||
+          state == State::incomplete)
         p.setPen(state_color(theme, state));
       draw_text(p, QRectF(box.width() - 12 - right_width, 21, right_width, 16), Qt::AlignRight, right);
     }
     const QPointF badge(box.width() - 16, 14);
     if (bad)
       draw_badge(p, badge, theme.error, theme.node, "!");
-    else if (has_warning(status, problem))
+    else if (has_warning(status, problem) || state == State::incomplete)
       draw_badge(p, badge, theme.warning, theme.node, "!");
     else if (state != State::idle) {
       p.setPen(Qt::NoPen);
@@ -340,7 +386,8 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
         draw_text(p, label, input ? Qt::AlignLeft : Qt::AlignRight,
                   QString::fromStdString(port.name) + (port.list ? " …" : ""));
       }
-    if (!node.still.isNull()) draw_still(p, node.still, status ? status->still.get() : nullptr, theme);
+    if (!node.still.isNull())
+      draw_still(p, node.still, status ? status->still.get() : nullptr, instead_of_still(state), theme);
     if (node.expandable) {
       p.setPen(theme.faint_text);
       p.setFont(font_of(11));

@@ -12,6 +12,10 @@ namespace kinegraph {
 void draw_port(QPainter& painter, QPointF at, double radius, Theme::Shape shape, const QColor& color,
                const QColor& hole, bool filled);
 
+// The families have a colour each, a thin bar above the title, so that a graph's parts are told apart from
+// afar. A node's own colour comes first.
+QColor family_color(const Theme& theme, const SceneNode& node);
+
 // "12 ms", "1.4 s"
 QString shown_seconds(double seconds);
 // "up to date", "failed"

@@ -35,7 +35,7 @@ class EntryDelegate : public QStyledItemDelegate {
     const int room = inside.width() - option.fontMetrics.horizontalAdvance(detail) - 12;
     p->drawText(inside, Qt::AlignVCenter | Qt::AlignLeft,
                 option.fontMetrics.elidedText(index.data().toString(), Qt::ElideRight, room));
-    p->setPen(option.palette.color(QPalette::PlaceholderText));
+    if (!selected) p->setPen(option.palette.color(QPalette::PlaceholderText));
     p->drawText(inside, Qt::AlignVCenter | Qt::AlignRight, detail);
   }
 };

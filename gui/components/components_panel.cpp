@@ -282,6 +282,9 @@ void ComponentsPanel::take_values() {
       empty_->setText(
           tr("No components here. Link motions to an ICA: it finds the independent movements that they "
              "are made of, and each appears here as a small figure."));
+    } else if (status && status->state == NodeStatus::State::incomplete) {
+      empty_->setText(tr("%1 isn't linked yet.\nLink motions to it: it finds the movements they are made of.")
+                          .arg(QString::fromStdString(components_.node)));
     } else if (status && status->state == NodeStatus::State::failed && !status->diagnostics.empty()) {
       empty_->setText(tr("%1 failed.\n%2")
                           .arg(QString::fromStdString(components_.node),

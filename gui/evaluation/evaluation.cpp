@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <QMetaObject>
+#include <algorithm>
 
 #include "graph/links.h"
 #include "graph/nested.h"
@@ -366,6 +367,7 @@ void Evaluation::sum_up_graph_nodes() {
       case State::running:
         return 4;
       case State::missing:
+      case State::incomplete:
       case State::blocked:
         return 3;
       case State::waiting:
@@ -446,7 +448,9 @@ void Evaluation::deliver(std::shared_ptr<Result> result) {
         for (const auto& [name, diagnostics] : result->left_out) {
           NodeStatus& status = statuses_[name];
           status = {};
-          status.state = NodeStatus::State::failed;
+          const bool open = std::all_of(diagnostics.begin(), diagnostics.end(),
+                                        [](const Diagnostic& d) { return d.code == "open-input"; });
+          status.state = open ? NodeStatus::State::incomplete : NodeStatus::State::failed;
           status.diagnostics = diagnostics;
           emit status_changed(QString::fromStdString(name));
         }

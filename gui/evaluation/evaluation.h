@@ -19,7 +19,8 @@ namespace kinegraph {
 
 // How a node stands, as its body on the canvas shows it.
 struct NodeStatus {
-  enum class State { idle, waiting, running, done, failed, blocked, cancelled, disabled, missing };
+  // incomplete: an input that it needs is not linked yet.
+  enum class State { idle, waiting, running, done, failed, blocked, cancelled, disabled, missing, incomplete };
   State state = State::idle;
   double progress = 0;  // 0 to 1 while running
   double seconds = 0;

@@ -476,8 +476,10 @@ void Viewer::update_words() {
     const NodeStatus* status = evaluation_.status(node);
     const QString name = QString::fromStdString(node);
     using State = NodeStatus::State;
-    if (status && (status->state == State::failed || status->state == State::missing)) {
-      words = tr("%1 failed.").arg(name);
+    if (status && (status->state == State::failed || status->state == State::missing ||
+                   status->state == State::incomplete)) {
+      words = status->state == State::incomplete ? tr("%1 isn't linked yet.").arg(name)
+                                                 : tr("%1 failed.").arg(name);
       for (const Diagnostic& problem : status->diagnostics)
         if (problem.severity == Severity::error) {
           words += "\n" + problem_text(problem);
@@ -485,7 +487,8 @@ void Viewer::update_words() {
           break;
         }
     } else if (status && status->state == State::blocked) {
-      words = tr("%1 waits for something before it that failed or is not linked.").arg(name);
+      words = tr("%1 waits for something before it that failed or is not linked.\nProblems tells which.")
+                  .arg(name);
     } else {
       words = tr("Evaluating %1 …").arg(name);
     }

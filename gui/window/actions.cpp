@@ -2,6 +2,7 @@
 
 #include <QKeySequence>
 #include <QObject>
+#include <string_view>
 
 namespace kinegraph {
 namespace {
@@ -117,14 +118,21 @@ constexpr MouseRow gestures[] = {
     {"Drag in the viewer", "turn; middle button or Shift: pan; wheel: nearer and farther"},
 };
 
-QString section(const QString& title, const QStringList& lines) {
-  return QString("<tr><td colspan=2><br><b>%1</b></td></tr>%2").arg(title, lines.join(QString()));
+QString section(const QString& title, const QStringList& lines, bool first = false) {
+  return QString("<tr><td colspan=2>%1<b>%2</b></td></tr>%3")
+      .arg(first ? "" : "<br>", title, lines.join(QString()));
 }
 
 }  // namespace
 
 std::span<const ActionRow> all_actions() {
   return rows;
+}
+
+QString menu_text(const char* name) {
+  for (const ActionRow& row : rows)
+    if (std::string_view(row.name) == name) return QObject::tr(row.text) + "\t" + QObject::tr(row.keys);
+  return QString::fromUtf8(name);
 }
 
 std::span<const MouseRow> mouse_gestures() {
@@ -147,7 +155,7 @@ QString help_page() {
       if (row.where == where)
         lines << line(QObject::tr(row.keys),
                       QString(QObject::tr(row.text)).remove('&').remove("…") + ": " + QObject::tr(row.what));
-    page += section(title, lines);
+    page += section(title, lines, where == Where::window);
   }
   QStringList lines;
   for (const MouseRow& row : gestures) lines << line(QObject::tr(row.gesture), QObject::tr(row.what));

@@ -20,6 +20,9 @@ struct ActionRow {
 };
 std::span<const ActionRow> all_actions();
 
+// An action's words with its keys, as an entry of a menu that opens at the pointer.
+QString menu_text(const char* name);
+
 // What the mouse does, for the help: gesture and effect.
 struct MouseRow {
   const char* gesture;

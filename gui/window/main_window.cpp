@@ -32,7 +32,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
       theme_(&dark_theme()),
       canvas_(new GraphCanvas(session_, evaluation_)),
       page_tabs_(new QTabBar),
-      welcome_(new Welcome(canvas_)),
+      welcome_(new Welcome(canvas_, registry_)),
       notice_(new NoticeBar),
       state_text_(new QLabel),
       hover_text_(new QLabel),
@@ -202,12 +202,13 @@ void MainWindow::update_progress() {
   progress_->setVisible(busy);
   actions_.at("cancel")->setEnabled(busy);
   double sum = 0;
-  int running = 0, failed = 0, blocked = 0;
+  int running = 0, failed = 0, blocked = 0, incomplete = 0;
   QString name;
   for (const auto& [node, unused] : session_.document().nodes)
     if (const NodeStatus* status = evaluation_.status(node)) {
       failed += status->state == NodeStatus::State::failed;
       blocked += status->state == NodeStatus::State::blocked;
+      incomplete += status->state == NodeStatus::State::incomplete;
       if (status->state != NodeStatus::State::running) continue;
       ++running;
       sum += status->progress;
@@ -220,6 +221,9 @@ void MainWindow::update_progress() {
                                       : tr("evaluating"));
   else if (failed)
     state_text_->setText(failed == 1 ? tr("1 node failed") : tr("%1 nodes failed").arg(failed));
+  else if (incomplete)
+    state_text_->setText(incomplete == 1 ? tr("1 node needs a link")
+                                         : tr("%1 nodes need links").arg(incomplete));
   else if (blocked)
     state_text_->setText(blocked == 1 ? tr("1 node is blocked") : tr("%1 nodes are blocked").arg(blocked));
   else

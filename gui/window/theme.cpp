@@ -30,8 +30,8 @@ Theme make_dark() {
   t.raised = 0xff333842;
   t.line = 0xff3d434e;
   t.text = 0xffe4e7ec;
-  t.faint_text = 0xff9aa3b0;
-  t.accent = 0xff4da3ff;
+  t.faint_text = 0xffa8b0bc;
+  t.accent = 0xff5aaaff;
   t.selection = 0xff2f5f94;
   t.canvas = 0xff191c21;
   t.grid = 0xff23272e;
@@ -41,10 +41,10 @@ Theme make_dark() {
   t.wire = 0xff8a93a1;
   t.still_ground = 0xff22262d;
   t.good = 0xff5ac57a;
-  t.running = 0xff4da3ff;
+  t.running = 0xff5aaaff;
   t.warning = 0xffe8b04a;
-  t.error = 0xffef6461;
-  t.missing = 0xffc76bd6;
+  t.error = 0xffff8a86;
+  t.missing = 0xffdb92e8;
   t.ground = 0xff2a2e35;
   t.ground_line = 0xff3a404a;
   t.sky = 0xff20242b;
@@ -68,8 +68,8 @@ Theme make_light() {
   t.raised = 0xffffffff;
   t.line = 0xffcdd2da;
   t.text = 0xff1d2229;
-  t.faint_text = 0xff5d6673;
-  t.accent = 0xff1668c7;
+  t.faint_text = 0xff565f6c;
+  t.accent = 0xff1463bd;
   t.selection = 0xffbcd8f7;
   t.canvas = 0xffe4e7ec;
   t.grid = 0xffd9dde3;
@@ -78,10 +78,10 @@ Theme make_light() {
   t.node_line = 0xffa9b1bd;
   t.wire = 0xff6c7683;
   t.still_ground = 0xffeef1f5;
-  t.good = 0xff21884a;
-  t.running = 0xff1668c7;
-  t.warning = 0xffa86e00;
-  t.error = 0xffc23330;
+  t.good = 0xff1a6e3c;
+  t.running = 0xff1463bd;
+  t.warning = 0xff855600;
+  t.error = 0xffb92e2c;
   t.missing = 0xff8a3aac;
   t.ground = 0xffdfe3e8;
   t.ground_line = 0xffc6ccd4;
@@ -164,10 +164,12 @@ kinegraph--ParamField QToolButton { background: %2; border: 1px solid %3; paddin
 kinegraph--ParamField QToolButton:hover { border-color: %5; }
 QToolButton#row_menu { padding: 2px 0px; color: %7; } QToolButton#row_menu:hover { color: %4; }
 QLabel#faint { color: %7; }
+QMessageBox QLabel#qt_msgbox_label { font-weight: 600; min-width: 300px; }
 QLineEdit#node_name { font-weight: 600; }
 QFrame#search_box { background: %2; border: 1px solid %5; border-radius: 6px; }
 QFrame#notice_bar { background: %2; border-bottom: 2px solid %5; }
 QScrollArea#parameter_rows, QScrollArea#parameter_rows > QWidget > QWidget { background: transparent; }
+QScrollArea#examples, QScrollArea#examples > QWidget > QWidget { background: transparent; }
 QCheckBox:focus { border: 1px solid %5; border-radius: 3px; }
 QLineEdit:focus, QPlainTextEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QTreeView:focus, QListView:focus, QTableView:focus, QSlider:focus { border: 1px solid %5; }
 QTreeView, QListView, QTableView { background: %8; border: 1px solid %3; border-radius: 4px; }

@@ -5,148 +5,132 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QPainter>
-#include <QPainterPath>
-#include <QPushButton>
+#include <QScrollArea>
+#include <QTimer>
 #include <algorithm>
 
-#include "graph/file/parse_json.h"
 #include "gui/panels/files_panel.h"
+#include "gui/window/example_card.h"
 
 namespace kinegraph {
 namespace {
 
-constexpr int card_width = 186, card_height = 112, gap = 12, words_height = 186;
-// The first ones that a new user should see; the rest of the room is filled by name.
-const char* const first_examples[] = {"sneaky_walk",  "style_transfer", "component_edit",
-                                      "cartoon_walk", "feet",           "component_transfer"};
+constexpr int gap = 10, heading_height = 28, words_height = 124, margin = 16;
 
-struct Thumbnail {
-  std::vector<QRectF> nodes;
-  std::vector<QLineF> wires;
-  QRectF bounds;
+// In the order in which a new user should meet them; what else lies in the folder comes last.
+struct Example {
+  const char *group, *file, *about;
 };
-
-// A graph's boxes and lines, as saved under `ui`: reading them needs no registry.
-Thumbnail thumbnail_of(const QString& path) {
-  Thumbnail made;
-  QFile file(path);
-  if (!file.open(QIODevice::ReadOnly)) return made;
-  Diagnostics problems;
-  const Json json = parse_json(file.readAll().toStdString(), path.toStdString(), problems);
-  const Json* nodes = json.find("nodes");
-  const Json* ui = json.find("ui");
-  const Json* places = ui ? ui->find("nodes") : nullptr;
-  if (!nodes || !nodes->is_object() || !places || !places->is_object()) return made;
-  std::map<std::string, QRectF> at;
-  for (const auto& [name, entry] : places->object())
-    if (const auto pos = point_of(&entry, "pos")) at[name] = QRectF(*pos, QSizeF(180, 90));
-  for (const auto& [name, box] : at) {
-    made.nodes.push_back(box);
-    made.bounds = made.bounds.united(box);
-  }
-  for (const auto& [name, node] : nodes->object()) {
-    const Json* inputs = node.find("inputs");
-    if (!inputs || !inputs->is_object() || !at.count(name)) continue;
-    for (const auto& [port, links] : inputs->object()) {
-      const auto draw = [&](const Json& link) {
-        const auto from = link.is_string() ? link_from_text(link.string()) : std::nullopt;
-        if (from && at.count(from->node))
-          made.wires.emplace_back(QPointF(at[from->node].right(), at[from->node].center().y()),
-                                  QPointF(at[name].left(), at[name].center().y()));
-      };
-      if (links.is_array())
-        for (const Json& link : links.array()) draw(link);
-      else
-        draw(links);
-    }
-  }
-  return made;
-}
-
-class Card : public QPushButton {
- public:
-  Card(const QString& path, QWidget* parent) : QPushButton(parent), picture_(thumbnail_of(path)) {
-    title_ = QFileInfo(path).fileName().remove(".kg.json").replace('_', ' ');
-    if (!title_.isEmpty()) title_[0] = title_[0].toUpper();
-    setAccessibleName(title_);
-    setToolTip(QDir::toNativeSeparators(path));
-    setCursor(Qt::PointingHandCursor);
-    setAttribute(Qt::WA_Hover);
-  }
-  const Theme* theme = &dark_theme();
-
- protected:
-  void paintEvent(QPaintEvent*) override {
-    QPainter p(this);
-    p.setRenderHint(QPainter::Antialiasing);
-    const bool lit = underMouse() || hasFocus();
-    p.setPen(QPen(lit ? theme->accent : theme->line, hasFocus() ? 2 : 1));
-    p.setBrush(theme->panel);
-    p.drawRoundedRect(QRectF(rect()).adjusted(1, 1, -1, -1), 7, 7);
-    const QRectF room = QRectF(rect()).adjusted(14, 12, -14, -34);
-    if (!picture_.bounds.isEmpty()) {
-      const double scale =
-          std::min({room.width() / picture_.bounds.width(), room.height() / picture_.bounds.height(), 0.2});
-      const auto place = [&](QPointF at) { return room.center() + (at - picture_.bounds.center()) * scale; };
-      p.setPen(QPen(theme->wire, 1));
-      for (const QLineF& wire : picture_.wires) {
-        const QPointF a = place(wire.p1()), b = place(wire.p2());
-        QPainterPath curve(a);
-        const double bow = std::max(4.0, (b.x() - a.x()) / 2);
-        curve.cubicTo(a + QPointF(bow, 0), b - QPointF(bow, 0), b);
-        p.drawPath(curve);
-      }
-      p.setPen(Qt::NoPen);
-      p.setBrush(lit ? theme->accent : theme->faint_text);
-      for (const QRectF& node : picture_.nodes)
-        p.drawRoundedRect(QRectF(place(node.topLeft()), place(node.bottomRight())), 1.5, 1.5);
-    }
-    p.setPen(theme->text);
-    p.drawText(rect().adjusted(10, height() - 32, -10, -6), Qt::AlignCenter, title_);
-  }
-
- private:
-  Thumbnail picture_;
-  QString title_;
+constexpr Example examples[] = {
+    {"Style", "sneaky_walk", "A walk learns to sneak, in seven nodes"},
+    {"Style", "style_transfer", "The whole method: warp, statistics, transfer, back"},
+    {"Style", "euler_versus_quaternion", "Why styles are taken from quaternions"},
+    {"Style", "styled_rubber_walk", "Style, components and rubber in one graph"},
+    {"Components", "component_edit", "Scale, move and bend single components"},
+    {"Components", "component_transfer", "Only the sneak's posture goes to the walk"},
+    {"Components", "component_between", "Steps between two behaviours"},
+    {"Components", "component_pieces", "A take cut up and seen in its components"},
+    {"Components", "component_run_sneak", "Run and sneak change postures"},
+    {"Components", "component_run_walk", "Run and walk change postures"},
+    {"Components", "representations", "Points, quaternions, Euler angles, logarithms"},
+    {"Components", "face", "A face taken apart and played anew"},
+    {"Components", "explosion", "Free points: sparks that rise higher"},
+    {"Cartoon", "cartoon_walk", "Exaggerated, with rubber limbs, on its feet"},
+    {"Cartoon", "cartoon_run", "Limbs bend like hoses and follow through"},
+    {"Cartoon", "cartoon_dance", "Springy steps, arms thrown up"},
+    {"Cartoon", "cartoon_kick", "A kick that winds up first"},
+    {"Cartoon", "cartoon_boxing", "A fist beyond its reach"},
+    {"Cartoon", "cartoon_character", "A skinned mannequin of rubber"},
+    {"Cartoon", "cartoon_comparison", "Four ways to exaggerate, side by side"},
+    {"Feet and figures", "feet", "Sliding feet are found and held"},
+    {"Feet and figures", "retarget", "A skinned figure walks, then sneaks"},
+    {"Graphs in graphs", "reuse", "A graph used as one node"},
+    {"Graphs in graphs", "sneaky_rubber", "Two pipelines behind one another"},
+    {"Graphs in graphs", "sample_clips", "How the sample clips were made"},
 };
 
 }  // namespace
 
-Welcome::Welcome(QWidget* canvas) : QWidget(canvas), theme_(&dark_theme()) {
+Welcome::Welcome(QWidget* canvas, const Registry& registry)
+    : QWidget(canvas),
+      registry_(registry),
+      theme_(&dark_theme()),
+      scroll_(new QScrollArea(this)),
+      page_(new QWidget) {
   setObjectName("welcome");
   setAccessibleName(tr("Examples"));
   setAttribute(Qt::WA_NoSystemBackground);
-  const QString folder = examples_folder();
-  QStringList paths;
-  if (!folder.isEmpty()) {
-    for (const char* name : first_examples) {
-      const QString path = QDir(folder).filePath(QString(name) + ".kg.json");
-      if (QFile::exists(path)) paths << path;
-    }
-    for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"}, QDir::Files, QDir::Name))
-      if (!paths.contains(file.absoluteFilePath())) paths << file.absoluteFilePath();
-  }
-  for (const QString& path : paths.mid(0, 6)) {
-    auto* card = new Card(path, this);
-    connect(card, &QPushButton::clicked, this, [this, path] { emit chosen(path); });
-    cards_.push_back(card);
-  }
+  scroll_->setObjectName("examples");
+  scroll_->setAccessibleName(tr("Examples"));
+  scroll_->setFrameShape(QFrame::NoFrame);
+  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll_->setFocusPolicy(Qt::NoFocus);
+  scroll_->setWidget(page_);
+  scroll_->viewport()->setAutoFillBackground(false);
+  page_->setAutoFillBackground(false);
   canvas->installEventFilter(this);
   show_where(true);
+}
+
+void Welcome::fill() {
+  if (filled_) return;
+  filled_ = true;
+  const QString folder = examples_folder();
+  if (folder.isEmpty()) return;
+  QStringList left;
+  for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"}, QDir::Files, QDir::Name))
+    left << file.absoluteFilePath();
+  QString title;
+  QStringList paths, words;
+  for (const Example& one : examples) {
+    if (title != one.group) {
+      add_group(title, paths, words);
+      paths.clear();
+      words.clear();
+      title = one.group;
+    }
+    const QString path = QDir(folder).absoluteFilePath(QString(one.file) + ".kg.json");
+    if (!left.removeOne(path)) continue;
+    paths << path;
+    words << tr(one.about);
+  }
+  add_group(title, paths, words);
+  QStringList no_words;
+  for (qsizetype i = 0; i < left.size(); ++i) no_words << QString();
+  add_group(tr("More"), left, no_words);
+  place();
+}
+
+void Welcome::add_group(const QString& title, const QStringList& paths, const QStringList& words) {
+  if (paths.isEmpty()) return;
+  Group group{new QLabel(title, page_), {}};
+  group.heading->setObjectName("faint");
+  group.heading->show();
+  for (qsizetype i = 0; i < paths.size(); ++i) {
+    auto* card = new ExampleCard(paths[i], words[i], registry_, page_);
+    card->set_theme(*theme_);
+    connect(card, &QPushButton::clicked, this, [this, path = paths[i]] { emit chosen(path); });
+    card->show();
+    group.cards.push_back(card);
+  }
+  groups_.push_back(std::move(group));
 }
 
 void Welcome::set_theme(const Theme& theme) {
   theme_ = &theme;
   update();
-  for (QPushButton* card : cards_) {
-    static_cast<Card*>(card)->theme = &theme;
-    card->update();
-  }
+  for (const Group& group : groups_)
+    for (ExampleCard* card : group.cards) card->set_theme(theme);
 }
 
 void Welcome::show_where(bool empty) {
   setVisible(empty);
-  if (empty) place();
+  if (!empty) return;
+  place();
+  // A window that is opened on a graph never shows them, and shouldn't wait for them.
+  QTimer::singleShot(0, this, [this] {
+    if (isVisible()) fill();
+  });
 }
 
 bool Welcome::eventFilter(QObject* watched, QEvent* event) {
@@ -154,53 +138,65 @@ bool Welcome::eventFilter(QObject* watched, QEvent* event) {
   return QWidget::eventFilter(watched, event);
 }
 
-// Three cards in a row, fewer where it is narrow; only the rows that fit below the words.
+// As many cards in a row as fit; the rows scroll below the words.
 void Welcome::place() {
   const QSize canvas = parentWidget()->size();
-  const int across = std::clamp((canvas.width() - gap) / (card_width + gap), 1, 3);
-  const int needed = (int(cards_.size()) + across - 1) / across;
-  const int rows = std::clamp((canvas.height() - words_height - gap) / (card_height + gap), 0, needed);
-  const int wide = across * (card_width + gap) - gap;
-  const int high = words_height + rows * (card_height + gap);
-  setGeometry((canvas.width() - wide) / 2, std::max(0, (canvas.height() - high) / 2), wide, high);
-  for (int i = 0; i < int(cards_.size()); ++i) {
-    cards_[std::size_t(i)]->setGeometry(i % across * (card_width + gap),
-                                        words_height + i / across * (card_height + gap), card_width,
-                                        card_height);
-    cards_[std::size_t(i)]->setVisible(i < across * rows);
+  setGeometry(1, 1, canvas.width() - 2, canvas.height() - 2);
+  const int room = width() - 2 * margin - 12;  // beside the scroll bar
+  const int across = std::clamp((room + gap) / (ExampleCard::wide + gap), 1, 6);
+  const int row_width = across * (ExampleCard::wide + gap) - gap;
+  const int left = std::max(0, (room - row_width) / 2);
+  int y = 0;
+  for (const Group& group : groups_) {
+    group.heading->setGeometry(left + 2, y, row_width, heading_height);
+    y += heading_height;
+    for (int i = 0; i < int(group.cards.size()); ++i)
+      group.cards[std::size_t(i)]->setGeometry(left + i % across * (ExampleCard::wide + gap),
+                                               y + i / across * (ExampleCard::high + gap), ExampleCard::wide,
+                                               ExampleCard::high);
+    const int rows = (int(group.cards.size()) + across - 1) / across;
+    y += rows * (ExampleCard::high + gap) + 4;
   }
+  const int high = std::max(0, height() - words_height);
+  page_->resize(room, y);
+  scroll_->setGeometry(margin, words_height, width() - 2 * margin, high);
+  scroll_->setVisible(high >= heading_height && !groups_.empty());
 }
 
 void Welcome::paintEvent(QPaintEvent*) {
   QPainter p(this);
   p.setRenderHint(QPainter::Antialiasing);
-  const auto lettering = [](int pixels, bool bold) {
-    QFont font;
-    font.setPixelSize(pixels);
-    font.setBold(bold);
-    return font;
-  };
+  QFont font;
+  font.setPixelSize(19);
+  font.setBold(true);
   p.setPen(theme_->text);
-  p.setFont(lettering(19, true));
-  p.drawText(QRect(0, 0, width(), 34), Qt::AlignCenter, tr("This graph is empty"));
-  const std::pair<QString, QString> lines[] = {{tr("Tab"), tr("add a node by its name")},
-                                               {tr("Drop"), tr("a motion file here to load it")},
-                                               {tr("Ctrl+O"), tr("open a graph")}};
-  double y = 44;
-  p.setFont(lettering(13, false));
-  for (const auto& [key, what] : lines) {
-    const QRectF cap(width() / 2.0 - 130, y, 62, 24);
+  p.setFont(font);
+  p.drawText(QRect(0, 16, width(), 32), Qt::AlignCenter, tr("This graph is empty"));
+  font.setPixelSize(13);
+  font.setBold(false);
+  p.setFont(font);
+  const std::pair<QString, QString> ways[] = {{tr("Tab"), tr("add a node by its name")},
+                                              {tr("Drop"), tr("a motion file here")},
+                                              {tr("Ctrl+O"), tr("open a graph")}};
+  const QFontMetrics metrics(font);
+  const auto cap_width = [&](const QString& key) { return metrics.horizontalAdvance(key) + 18; };
+  int total = -24;
+  for (const auto& [key, what] : ways) total += cap_width(key) + 8 + metrics.horizontalAdvance(what) + 24;
+  int x = (width() - total) / 2;
+  for (const auto& [key, what] : ways) {
+    const QRectF cap(x, 60, cap_width(key), 24);
     p.setPen(QPen(theme_->line, 1));
     p.setBrush(theme_->panel);
     p.drawRoundedRect(cap, 4, 4);
     p.setPen(theme_->text);
     p.drawText(cap, Qt::AlignCenter, key);
+    const int words = metrics.horizontalAdvance(what);
     p.setPen(theme_->faint_text);
-    p.drawText(QRectF(cap.right() + 14, y, 260, 24), Qt::AlignVCenter, what);
-    y += 30;
+    p.drawText(QRectF(cap.right() + 8, 60, words + 4, 24), Qt::AlignVCenter, what);
+    x += cap_width(key) + 8 + words + 24;
   }
-  if (!cards_.empty() && cards_.front()->isVisibleTo(this))
-    p.drawText(QRect(0, words_height - 38, width(), 26), Qt::AlignCenter, tr("or begin with an example"));
+  if (scroll_->isVisibleTo(this))
+    p.drawText(QRect(0, 94, width(), 26), Qt::AlignCenter, tr("or begin with an example"));
 }
 
 }  // namespace kinegraph

@@ -1,21 +1,24 @@
 // What an empty graph says: how to begin, and the examples as small pictures of their graphs.
 #pragma once
+#include <QLabel>
 #include <QWidget>
 #include <vector>
 
-#include "gui/canvas/graph_scene.h"
+#include "graph/registry.h"
 #include "gui/window/theme.h"
 
-class QPushButton;
+class QScrollArea;
 
 namespace kinegraph {
+
+class ExampleCard;
 
 class Welcome : public QWidget {
   Q_OBJECT
 
  public:
-  // Lies over the canvas, in its middle; what isn't a card lets the mouse through to it.
-  explicit Welcome(QWidget* canvas);
+  // Lies over the canvas; what isn't a card lets the mouse through to it. The registry outlives this.
+  Welcome(QWidget* canvas, const Registry& registry);
   void set_theme(const Theme& theme);
   void show_where(bool empty);
 
@@ -27,9 +30,20 @@ class Welcome : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  struct Group {
+    QLabel* heading;
+    std::vector<ExampleCard*> cards;
+  };
+  void fill();  // reads the examples, once they are to be seen
+  void add_group(const QString& title, const QStringList& paths, const QStringList& words);
   void place();
+
+  const Registry& registry_;
   const Theme* theme_;
-  std::vector<QPushButton*> cards_;
+  QScrollArea* scroll_;
+  QWidget* page_;  // of the scroll area
+  std::vector<Group> groups_;
+  bool filled_ = false;
 };
 
 }  // namespace kinegraph

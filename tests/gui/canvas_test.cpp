@@ -4,6 +4,7 @@
 #include <QDir>
 #include <QFileInfo>
 
+#include "gui/canvas/clear_wires.h"
 #include "tests/gui/editor.h"
 
 namespace kinegraph::editor_test {
@@ -191,25 +192,100 @@ TEST(EditorCanvas, EverythingUndoneIsTheFileAsItWas) {
   EXPECT_EQ(editor.session().text(), before);
 }
 
-// Stills, values and ports make nodes of different heights; none of an example may hide another.
-TEST(EditorExamples, NoNodeLiesOnAnother) {
-  const Registry registry = all_nodes();
-  const QDir graphs(QString(KINEGRAPH_SOURCE_DIR) + "/graphs");
-  QStringList files;
-  for (const QString& folder : {graphs.path(), graphs.filePath("pipelines")})
-    for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"})) files << file.filePath();
-  ASSERT_GT(files.size(), 15);
-  for (const QString& file : files) {
+struct Examples : testing::Test {
+  Examples() {
+    const QDir graphs(QString(KINEGRAPH_SOURCE_DIR) + "/graphs");
+    for (const QString& folder : {graphs.path(), graphs.filePath("pipelines")})
+      for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"})) files << file.filePath();
+  }
+  GraphScene scene_of(const QString& file) {
     Session session(registry);
     session.open_page(file);
     GraphScene scene;
     scene.rebuild(session.document(), registry, {});
+    return scene;
+  }
+  const Registry registry = all_nodes();
+  QStringList files;
+};
+
+using EditorExamples = Examples;
+
+// Stills, values and ports make nodes of different heights; none of an example may hide another.
+TEST_F(EditorExamples, NoNodeLiesOnAnother) {
+  ASSERT_GT(files.size(), 15);
+  for (const QString& file : files) {
+    const GraphScene scene = scene_of(file);
     for (const SceneNode& a : scene.nodes())
       for (const SceneNode& b : scene.nodes())
         if (a.name < b.name) {
           EXPECT_FALSE(a.rect.intersects(b.rect)) << file.toStdString() << ": " << a.name << ", " << b.name;
         }
   }
+}
+
+TEST_F(EditorExamples, NoWireRunsBehindANode) {
+  ASSERT_GT(files.size(), 15);
+  for (const QString& file : files) {
+    const GraphScene scene = scene_of(file);
+    for (const SceneWire& wire : scene.wires())
+      for (const SceneNode& node : scene.nodes())
+        if (node.name != wire.from && node.name != wire.to) {
+          EXPECT_EQ(length_inside(wire.line, node.rect), 0)
+              << file.toStdString() << ": " << wire.from << " to " << wire.to << " behind " << node.name;
+        }
+  }
+}
+
+TEST(EditorCanvas, AFrameIsUndoneWithTheNodesInIt) {
+  TwoNodes editor;
+  editor.key(Qt::Key_A, Qt::ControlModifier);
+  editor.key(Qt::Key_G);
+  editor.type("Both");
+  editor.key(Qt::Key_Return);
+  const std::string framed = editor.session().text();
+  editor.key(Qt::Key_Escape);
+  editor.key(Qt::Key_A, Qt::ControlModifier);
+  editor.key(Qt::Key_Delete);
+  EXPECT_TRUE(editor.document().nodes.empty());
+  EXPECT_TRUE(editor.document().ui.frames.empty());
+  editor.key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(editor.session().text(), framed);
+}
+
+// What lies on top takes the mouse: a port below it is not there for the hand.
+TEST(EditorCanvas, APortUnderAnotherNodeIsNotGrabbed) {
+  TwoNodes editor;
+  const QPointF port = editor.canvas().scene().port_position({editor.gait, "motion", false});
+  editor.drag_node(editor.metrics, port - QPointF(90, 14));
+  const SceneNode* over = editor.canvas().scene().node_at(port);
+  ASSERT_TRUE(over);
+  const std::string covering = over->name, covered = covering == editor.gait ? editor.metrics : editor.gait;
+  // Whichever lies on top: at its title only it moves, and no wire begins.
+  const QPointF before = editor.canvas().scene().node(covering)->rect.topLeft();
+  const QPoint at = editor.middle(covering);
+  editor.drag(at, at + QPoint(0, 120));
+  EXPECT_NE(editor.canvas().scene().node(covering)->rect.topLeft(), before);
+  EXPECT_EQ(editor.links(editor.metrics, "motion"), 0u);
+  EXPECT_FALSE(editor.canvas().findChild<QWidget*>("search_box")->isVisible());
+}
+
+TEST(EditorCanvas, ANodeThatIsNotLinkedYetSaysWhatItNeeds) {
+  TwoNodes editor;
+  QTest::mouseClick(&editor.canvas(), Qt::LeftButton, {}, editor.middle(editor.metrics));
+  ASSERT_TRUE(QTest::qWaitFor([&] {
+    const NodeStatus* status = editor.window.evaluation().status(editor.metrics);
+    return status && status->state == NodeStatus::State::incomplete;
+  }));
+  const Diagnostics& said = editor.window.evaluation().status(editor.metrics)->diagnostics;
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].port, "motion");
+  EXPECT_FALSE(said[0].hint.empty());
+  editor.drag(editor.port(editor.gait, "motion", false), editor.port(editor.metrics, "motion", true));
+  EXPECT_TRUE(QTest::qWaitFor([&] {
+    const NodeStatus* status = editor.window.evaluation().status(editor.metrics);
+    return status && status->state != NodeStatus::State::incomplete;
+  }));
 }
 
 TEST(EditorCanvas, NodesAddedAtOnePlaceStandBelowEachOther) {
