@@ -3,6 +3,7 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QLabel>
 #include <QStyledItemDelegate>
 #include <QTableWidget>
 #include <QToolButton>
@@ -53,7 +54,10 @@ class ChoiceDelegate : public QStyledItemDelegate {
 class TableField : public ParamField {
  public:
   TableField(const Param& param, QWidget* parent)
-      : ParamField(parent), type_(param), table_(new QTableWidget(this)) {
+      : ParamField(parent),
+        type_(param),
+        table_(new QTableWidget(this)),
+        none_(new QLabel(tr("none"), table_->viewport())) {
     using Kind = ParamType::Kind;
     const ParamType element = param.parts.empty() ? text("") : param.parts[0];
     by_name_ = param.kind == Kind::table;
@@ -93,6 +97,12 @@ class TableField : public ParamField {
         header->setToolTip(
             QString::fromStdString(columns_[i].help.empty() ? described(columns_[i]) : columns_[i].help));
     column->addWidget(table_);
+    none_->setObjectName("faint");
+    none_->setAlignment(Qt::AlignCenter);
+    none_->setAttribute(Qt::WA_TransparentForMouseEvents);
+    auto* over = new QVBoxLayout(table_->viewport());
+    over->setContentsMargins(0, 0, 0, 0);
+    over->addWidget(none_);
     auto* row = new QHBoxLayout;
     row->setSpacing(4);
     const auto tool = [&](const QString& sign, const QString& what, auto act) {
@@ -172,6 +182,7 @@ class TableField : public ParamField {
     table_->setFixedHeight(
         rows * table_->verticalHeader()->defaultSectionSize() +
         (table_->horizontalHeader()->isVisible() ? table_->horizontalHeader()->sizeHint().height() : 0) + 4);
+    none_->setVisible(table_->rowCount() == 0);
   }
 
   QString cell(int row, int column) const {
@@ -293,6 +304,7 @@ class TableField : public ParamField {
 
   ParamType type_;
   QTableWidget* table_;
+  QLabel* none_;
   std::vector<ParamType> columns_;
   std::optional<ParamType> variants_;  // of a row: objects of several forms
   bool by_name_ = false, objects_ = false, showing_ = false, adding_ = false;

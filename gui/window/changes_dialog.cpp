@@ -68,6 +68,8 @@ ChangesDialog::ChangesDialog(const QString& title, const Diff& diff, QWidget* pa
                               : QString::fromStdString(to_text(change.unit)),
          shown(change.before, change.unit), shown(change.after, change.unit)}));
   if (diff.empty()) list->addTopLevelItem(new QTreeWidgetItem({tr("only the layout")}));
+  for (int i = 0; i < list->topLevelItemCount(); ++i)
+    list->topLevelItem(i)->setSizeHint(0, QSize(0, fontMetrics().height() + 10));
   column->addWidget(list, 1);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
   buttons->addButton(tr("Merge it in"), QDialogButtonBox::AcceptRole)->setDefault(true);

@@ -97,7 +97,7 @@ void MainWindow::usual_layout() {
   parameters->raise();
   docks_[3]->raise();
   resizeDocks({viewer, docks_[3]}, {440, 840}, Qt::Horizontal);
-  resizeDocks({viewer, parameters}, {375, 375}, Qt::Vertical);
+  resizeDocks({viewer, parameters}, {415, 335}, Qt::Vertical);
   resizeDocks({docks_[3]}, {270}, Qt::Vertical);
   QMetaObject::invokeMethod(this, &MainWindow::update_dock_titles, Qt::QueuedConnection);
 }
