@@ -8,6 +8,7 @@
 
 #include "graph/file/parse_json.h"
 #include "graph/param.h"
+#include "graph/shortened.h"
 
 namespace kinegraph {
 
@@ -24,14 +25,7 @@ std::vector<std::string> keys_of(const std::vector<ParamType::Choice>& choices) 
 }
 
 std::string shown(const Json& value) {
-  std::string text = compact(value, true);
-  constexpr std::size_t longest = 60;
-  if (text.size() > longest) {
-    std::size_t end = longest;
-    while ((static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-    text = text.substr(0, end) + "…";
-  }
-  return text;
+  return shortened(compact(value, true));
 }
 
 class Checker {
@@ -326,7 +320,7 @@ Json parse_value(const ParamType& type, std::string_view text) {
     }
   }
   if (auto value = json()) return *value;
-  throw Failure(error("bad-value", fmt::format("{} can't be read", in_quotes(text)))
+  throw Failure(error("bad-value", fmt::format("{} can't be read", shortened(in_quotes(text))))
                     .hinting("wanted is " + described(type)));
 }
 

@@ -1,25 +1,29 @@
-// What is wrong where a JSON text stops making sense, in a person's words.
+// What is wrong where a reader of JSON stopped, in a person's words, and what was meant, where that is beyond
+// doubt.
 #pragma once
-#include <string>
+#include <optional>
 #include <string_view>
 
 #include "graph/diagnostic.h"
-#include "graph/json.h"
+#include "graph/file/mended_text.h"
 
 namespace kinegraph {
 
 // What the reader was waiting for.
 enum class Wanted { value, name, colon, member_end, element_end, end };
 
-// `offset`: where the last token that made sense ended. `inside`: a list or an object is open. The diagnostic
-// has its place ("syntax", "bad-number", "not-finite", "trailing-comma", "comment") but not yet its file.
-Diagnostic json_mistake(std::string_view text, std::size_t offset, Wanted wanted, bool inside);
+struct JsonMistake {
+  // With its place; codes "syntax", "bad-number", "not-finite", "trailing-comma", "comment".
+  Diagnostic problem;
+  std::optional<Mend> mend;
+};
 
-// A number's text, which starts at `offset`: as far as characters go that numbers are made of.
-std::string_view number_token(std::string_view text, std::size_t offset);
+// `cursor` stands behind the last token that was understood, and the reader stopped at the byte `stopped`, a
+// comma or a colon further perhaps. `nothing_open`: no list or object is open there.
+JsonMistake explain_json(JsonCursor cursor, std::size_t stopped, Wanted wanted, bool nothing_open);
+
+bool is_number_character(char c);
+// Whether a whole token is a number as RFC 8259 spells it.
 bool is_json_number(std::string_view token);
-
-// Line and column of a byte, both from 1, columns in characters.
-Place place_in(std::string_view text, std::size_t offset);
 
 }  // namespace kinegraph

@@ -5,12 +5,21 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <limits>
+#include <set>
+#include <span>
+#include <tuple>
+#include <utility>
 
 #include "graph/file/json_mistake.h"
 
 namespace kinegraph {
 
 namespace {
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
 
 // The offset of the first byte that isn't UTF-8 (RFC 3629: no overlong forms, no surrogates), or npos.
 std::size_t first_bad_utf8(std::string_view text) {
@@ -44,7 +53,7 @@ std::size_t first_bad_utf8(std::string_view text) {
 }
 
 // Git's markers begin a line, where JSON can hold no text of its own: a string has no raw line break in it.
-void find_conflict_markers(std::string_view text, const std::string& file, Diagnostics& problems) {
+void find_conflict_markers(std::string_view text, Diagnostics& found) {
   bool inside = false;
   int line = 1;
   for (std::size_t start = 0; start < text.size(); ++line) {
@@ -53,11 +62,11 @@ void find_conflict_markers(std::string_view text, const std::string& file, Diagn
     const bool opens = row.starts_with("<<<<<<<");
     if (opens || row.starts_with(">>>>>>>") || row.starts_with("=======") || row.starts_with("|||||||")) {
       if (opens || !inside)
-        problems.push_back(
+        found.push_back(
             error("conflict-markers", fmt::format("git's conflict marker {}", row.substr(0, 7)))
-                .in_file(file, {line, 1})
-                .hinting("finish the merge: keep a side at each marker, take the markers out, then kinegraph "
-                         "fmt"));
+                .in_file("", {line, 1})
+                .hinting("finish the merge: keep a side at each marker, take the markers out, then "
+                         "kinegraph fmt"));
       inside = !row.starts_with(">>>>>>>");
     }
     start = end + 1;
@@ -82,28 +91,35 @@ bool is_beyond(std::string_view token) {
 // One walk over the text, straight into the values.
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& file, Diagnostics& problems)
-      : text_(text), file_(file), problems_(problems) {}
+  explicit Parser(std::string_view text) : text_(text), whole_(text) {}
+  // Of a text with mends: `mended` is mended(text, mends).
+  Parser(std::string_view text, std::span<const Mend> mends, std::string_view mended)
+      : text_(mended), whole_(text), mends_(mends) {}
 
   bool whole(Json& result) {
     if (!value(result)) return false;
     skip_space();
     return at_ == text_.size() || fail(Wanted::end);
   }
+  const Diagnostics& duplicate_keys() const { return duplicate_keys_; }
+  const std::optional<JsonMistake>& mistake() const { return mistake_; }  // that ended the reading
 
  private:
-  // Tells of what stands behind the last token. False, for the caller to return.
+  // Explains what stands behind the last token. False, for the caller to return.
   bool fail(Wanted wanted) {
-    problems_.push_back(json_mistake(text_, token_end_, wanted, depth_ > 0));
-    problems_.back().file = file_;
+    JsonCursor token_end(whole_, mends_), stopped(whole_, mends_);
+    token_end.advance_to_mended(token_end_);
+    stopped.advance_to_mended(at_);
+    mistake_ = explain_json(token_end, stopped.offset(), wanted, depth_ == 0);
     return false;
-  }
-  void problem(Diagnostic diagnostic, Place place) {
-    problems_.push_back(std::move(diagnostic).in_file(file_, place));
   }
 
   char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
-  Place place() const { return {line_, static_cast<int>(at_ - line_start_) + 1}; }
+  Place place() {
+    if (mends_.empty()) return {line_, static_cast<int>(at_ - line_start_) + 1};
+    cursor_.advance_to_mended(at_);
+    return cursor_.place();
+  }
   void skip_space() {
     for (; at_ < text_.size(); ++at_) {
       const char c = text_[at_];
@@ -159,9 +175,10 @@ class Parser {
 
   bool enter(Place here) {
     if (depth_ == deepest_json) {
-      problem(error("too-deep", fmt::format("more than {} levels of lists and objects", deepest_json))
-                  .hinting("no graph needs so many; is a bracket left open?"),
-              here);
+      mistake_ = {error("too-deep", fmt::format("more than {} levels of lists and objects", deepest_json))
+                      .hinting("no graph needs so many; is a bracket left open?"),
+                  {}};
+      mistake_->problem.place = here;
       return false;
     }
     ++depth_;
@@ -194,9 +211,10 @@ class Parser {
         member->second.key_place = here;
         if (!value(member->second)) return false;
       } else {
-        problem(error("duplicate-key", fmt::format("{} stands here a second time", in_quotes(member->first)))
-                    .hinting(fmt::format("the first is in line {}; keep one", member->second.key_place.line)),
-                here);
+        duplicate_keys_.push_back(
+            error("duplicate-key", fmt::format("{} stands here a second time", in_quotes(member->first)))
+                .hinting(fmt::format("the first is in line {}; keep one", member->second.key_place.line)));
+        duplicate_keys_.back().place = here;
         Json ignored;
         if (!value(ignored)) return false;
       }
@@ -226,15 +244,32 @@ class Parser {
   }
 
   bool number(Json& into) {
-    const std::string_view token = number_token(text_, at_);
-    if (!is_json_number(token)) return fail(Wanted::value);
+    std::size_t end = at_;
+    while (end < text_.size() && is_number_character(text_[end])) ++end;
+    const std::string_view token = text_.substr(at_, end - at_);
+    if (!is_json_number(token) || (end < text_.size() && is_letter(text_[end]))) return fail(Wanted::value);
+    if (const Mend* mend = unread()) {
+      const std::string_view spelling = whole_.substr(mend->at, mend->length);
+      into = Json::number_as_read(std::numeric_limits<double>::quiet_NaN(),
+                                  std::string(spelling.empty() ? "nothing" : spelling));
+      at_ = end;
+      end_token();
+      return true;
+    }
     double number = 0;
     const auto read = std::from_chars(token.data(), token.data() + token.size(), number);
     if (read.ec == std::errc::result_out_of_range && is_beyond(token)) return fail(Wanted::value);
     into = Json::number_as_read(number, std::string(token));
-    at_ += token.size();
+    at_ = end;
     end_token();
     return true;
+  }
+  // The mend here that stands for a value that isn't known.
+  const Mend* unread() {
+    if (mends_.empty()) return nullptr;
+    cursor_.advance_to_mended(at_);
+    const Mend* mend = cursor_.mend();
+    return mend && mend->unread ? mend : nullptr;
   }
 
   // False where it is none: then nothing is taken, and fail() finds out why.
@@ -303,9 +338,11 @@ class Parser {
     return read.ec == std::errc() && read.ptr == rest.data() + 6;
   }
 
-  std::string_view text_;
-  const std::string& file_;
-  Diagnostics& problems_;
+  std::string_view text_, whole_;  // as it is read, and as it stands
+  std::span<const Mend> mends_;
+  JsonCursor cursor_{whole_, mends_};
+  Diagnostics duplicate_keys_;
+  std::optional<JsonMistake> mistake_;
   std::size_t at_ = 0;
   std::size_t token_end_ = 0;
   int line_ = 1;
@@ -313,31 +350,131 @@ class Parser {
   int depth_ = 0;
 };
 
+bool is_same(Place a, Place b) {
+  return a.line == b.line && a.column == b.column;
+}
+
+// False: something else is mended there already, so that the reading wouldn't get on.
+bool put_in(std::vector<Mend>& mends, const Mend& mend) {
+  const auto next = std::find_if(mends.begin(), mends.end(), [&](const Mend& other) {
+    return other.at > mend.at || (other.at == mend.at && other.length > 0 && mend.length == 0);
+  });
+  if (next != mends.end() && mend.at + mend.length > next->at) return false;
+  if (next != mends.begin()) {
+    const Mend& before = *std::prev(next);
+    if (before.at + before.length > mend.at) return false;
+    if (before.at == mend.at && mend.length == 0) return false;
+  }
+  mends.insert(next, mend);
+  return true;
+}
+
+// The text with a ? for each byte that isn't UTF-8; the first of each line is told.
+std::string as_utf8(std::string_view text, Diagnostics& found) {
+  std::string whole(text);
+  JsonCursor cursor(whole);
+  for (int line = 0;;) {
+    const std::size_t bad = first_bad_utf8(cursor.rest());
+    if (bad == std::string_view::npos) return whole;
+    const std::size_t at = cursor.offset() + bad;
+    const char byte = std::exchange(whole[at], '?');
+    cursor.advance_to(at);
+    if (line == cursor.place().line) continue;
+    line = cursor.place().line;
+    found.push_back(
+        error("bad-utf8", fmt::format("byte 0x{:02x} isn't UTF-8", static_cast<unsigned char>(byte)))
+            .hinting("save the file as UTF-8"));
+    found.back().place = cursor.place();
+  }
+}
+
+// The value, or null where the reading stopped: at the first problem, or, if it may go `past` them, at the
+// first that leaves open what was meant.
+Json parse(std::string_view text, bool past, Diagnostics& found) {
+  const auto tell = [&](Diagnostic diagnostic, Place place) {
+    diagnostic.place = place;
+    found.push_back(std::move(diagnostic));
+  };
+  if (text.size() > largest_json) {
+    tell(error("too-large", fmt::format("{} bytes; a graph file has at most 64 MiB", text.size())), {1, 1});
+    return {};
+  }
+  if (text.starts_with("\xEF\xBB\xBF")) {
+    tell(error("byte-order-mark", "the file starts with a byte-order mark")
+             .hinting("save it as UTF-8 without one"),
+         {1, 1});
+    if (!past) return {};
+    text.remove_prefix(3);
+  }
+  find_conflict_markers(text, found);
+  if (!found.empty() && found.back().code == "conflict-markers") return {};
+  std::string valid;
+  if (first_bad_utf8(text) != std::string_view::npos) {
+    valid = as_utf8(text, found);
+    const bool is_text = text.find('\0') == std::string_view::npos;
+    if (!past || !is_text) {
+      found.resize(1);
+      return {};
+    }
+    text = valid;
+  }
+
+  std::vector<Mend> mends;
+  Place last;
+  for (std::size_t read = 0;;) {
+    const std::string as_meant = mends.empty() ? "" : mended(text, mends);
+    Parser parser = mends.empty() ? Parser(text) : Parser(text, mends, as_meant);
+    Json json;
+    const bool whole_is_read = parser.whole(json);
+    const auto& mistake = parser.mistake();
+    if (mistake && !is_same(mistake->problem.place, last)) found.push_back(mistake->problem);
+    read += text.size();
+    if (!whole_is_read && past && read <= largest_json && mistake->mend && put_in(mends, *mistake->mend)) {
+      last = mistake->problem.place;
+      continue;
+    }
+    found.insert(found.end(), parser.duplicate_keys().begin(), parser.duplicate_keys().end());
+    return whole_is_read ? std::move(json) : Json();
+  }
+}
+
+Json parse(std::string_view text, const std::string& file, bool past, Diagnostics& problems) {
+  Diagnostics found;
+  Json json = parse(text, past, found);
+  std::stable_sort(found.begin(), found.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+  for (Diagnostic& problem : found) {
+    problem.file = file;
+    problems.push_back(std::move(problem));
+  }
+  return json;
+}
+
 }  // namespace
 
 Json parse_json(std::string_view text, const std::string& file, Diagnostics& problems) {
-  const auto refuse = [&](Diagnostic diagnostic, std::size_t offset) {
-    problems.push_back(std::move(diagnostic).in_file(file, place_in(text, offset)));
-    return Json();
+  return parse(text, file, false, problems);
+}
+
+Json parse_json_past_mistakes(std::string_view text, const std::string& file, Diagnostics& problems) {
+  return parse(text, file, true, problems);
+}
+
+void drop_consequences(Diagnostics& problems) {
+  const std::set<std::string_view> of_values = {"syntax", "bad-number", "not-finite"},
+                                   of_keys = {"unknown-key", "unknown-param", "unknown-port", "bad-name",
+                                              "duplicate-key"};
+  std::set<std::tuple<std::string, int, int>> unread;
+  const auto at = [](const Diagnostic& problem) {
+    return std::tuple(problem.file, problem.place.line, problem.place.column);
   };
-  if (text.size() > largest_json)
-    return refuse(error("too-large", fmt::format("{} bytes; a graph file has at most 64 MiB", text.size())),
-                  0);
-  if (text.starts_with("\xEF\xBB\xBF"))
-    return refuse(error("byte-order-mark", "the file starts with a byte-order mark")
-                      .hinting("save it as UTF-8 without one"),
-                  0);
-  const std::size_t before = problems.size();
-  find_conflict_markers(text, file, problems);
-  if (problems.size() > before) return Json();
-  if (const std::size_t bad = first_bad_utf8(text); bad != std::string_view::npos)
-    return refuse(
-        error("bad-utf8", fmt::format("byte 0x{:02x} isn't UTF-8", static_cast<unsigned char>(text[bad])))
-            .hinting("save the file as UTF-8"),
-        bad);
-  Json result;
-  if (!Parser(text, file, problems).whole(result)) return Json();
-  return result;
+  std::erase_if(problems, [&](const Diagnostic& problem) {
+    const bool of_value = of_values.contains(problem.code) && problem.node.empty();
+    if (of_value) return !unread.insert(at(problem)).second;
+    if (problem.code == "not-finite") return !unread.empty();  // by way of a variable
+    return unread.contains(at(problem)) && !of_keys.contains(problem.code);
+  });
 }
 
 }  // namespace kinegraph

@@ -11,11 +11,19 @@ namespace kinegraph {
 inline constexpr std::size_t largest_json = std::size_t{64} << 20;  // bytes
 inline constexpr int deepest_json = 64;                             // levels of lists and objects
 
-// Refuses what RFC 8259 doesn't allow (codes "syntax", "bad-number", "trailing-comma", "comment"), duplicate keys
-// ("duplicate-key"), invalid UTF-8 ("bad-utf8"), a byte-order mark ("byte-order-mark"), numbers that aren't finite
-// ("not-finite"), more than 64 levels ("too-deep"), more than 64 MiB ("too-large") and git's conflict markers
-// ("conflict-markers"). Problems go to `problems`, each with line and column (both from 1, columns in characters); on
-// one that stops the reading the result is null. `file` is how messages name the text.
+// Refuses what RFC 8259 doesn't allow (codes "syntax", "bad-number", "trailing-comma", "comment"), duplicate
+// keys ("duplicate-key"), invalid UTF-8 ("bad-utf8"), a byte-order mark ("byte-order-mark"), numbers that
+// aren't finite ("not-finite"), more than 64 levels ("too-deep"), more than 64 MiB ("too-large") and git's
+// conflict markers
+// ("conflict-markers"). Problems go to `problems`, each with line and column (both from 1, columns in
+// characters); on one that stops the reading the result is null. `file` is how messages name the text.
 Json parse_json(std::string_view text, const std::string& file, Diagnostics& problems);
+// Reads on past mistakes that can only be meant in one way (commas too many or missing, comments, single
+// quotes, bare words, 012, NaN …), telling each, so that the rest of the file can be judged as well; on
+// others it stops as parse_json() does. A number that isn't known is NaN, spelled as it stood. With an error
+// among `problems` the value is only for judging.
+Json parse_json_past_mistakes(std::string_view text, const std::string& file, Diagnostics& problems);
+// Where a value couldn't be read, takes out what was said of its meaning: one mistake, one message.
+void drop_consequences(Diagnostics& problems);
 
 }  // namespace kinegraph

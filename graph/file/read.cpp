@@ -7,6 +7,7 @@
 
 #include "graph/file/migrate.h"
 #include "graph/missing.h"
+#include "graph/shortened.h"
 
 namespace kinegraph {
 
@@ -20,6 +21,14 @@ std::optional<int> version_in(const Json& value) {
   return static_cast<int>(value.number());
 }
 
+// What a motion file or a program's text begins with, and JSON's lists and objects don't; "" of any other.
+std::string_view first_word(std::string_view text) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  std::size_t length = 0;
+  while (length < std::min<std::size_t>(text.size(), 24) && is_letter(text[length])) ++length;
+  return text.substr(0, length);
+}
+
 // Takes the parsed text apart: what goes into the document is moved there.
 class Reader {
  public:
@@ -27,7 +36,13 @@ class Reader {
       : text_(text), file_(file), registry_(registry), migrate_(migrate) {}
 
   ReadResult read() {
-    Json top = parse_json(text_, file_, result_.problems);
+    if (const std::string_view word = first_word(text_); !word.empty()) {
+      add(error("not-a-graph", fmt::format("the file starts with {}, and a graph with {{", word))
+              .hinting("kinegraph info FILE looks at a motion file, and a Load in a graph reads it"),
+          {1, 1});
+      return std::move(result_);
+    }
+    Json top = parse_json_past_mistakes(text_, file_, result_.problems);
     if (top.is_null() && has_error(result_.problems)) return std::move(result_);
     if (!top.is_object()) {
       add(error("not-a-graph", fmt::format("the file holds {}", name_of(top.kind())))
@@ -88,7 +103,7 @@ class Reader {
     }
     const auto version = version_in(*schema);
     if (!version) {
-      add(error("bad-version", fmt::format("{} is no schema", compact(*schema, true)))
+      add(error("bad-version", fmt::format("{} is no schema", shortened(compact(*schema, true))))
               .hinting("a whole number from 1"),
           schema->place);
       return true;
@@ -161,7 +176,7 @@ class Reader {
       if (const auto read = version_in(*stored))
         version = *read;
       else
-        add(error("bad-version", fmt::format("{} is no version", compact(*stored, true)))
+        add(error("bad-version", fmt::format("{} is no version", shortened(compact(*stored, true))))
                 .hinting("a whole number from 1"),
             stored->place, name);
     }
@@ -278,7 +293,7 @@ class Reader {
                  std::vector<Link>& links) {
     auto link = value.is_string() ? link_from_text(value.string()) : std::nullopt;
     if (!link) {
-      add(error("bad-link", fmt::format("{} is no link", compact(value, true)))
+      add(error("bad-link", fmt::format("{} is no link", shortened(compact(value, true))))
               .at_port(port)
               .hinting("\"node.port\""),
           value.place, name);
@@ -322,7 +337,8 @@ class Reader {
       const auto read = [&](const Json& one) {
         auto link = one.is_string() ? link_from_text(one.string()) : std::nullopt;
         if (!link) {
-          add(error("bad-link", fmt::format("{} is nothing that can be published", compact(one, true)))
+          add(error("bad-link",
+                    fmt::format("{} is nothing that can be published", shortened(compact(one, true))))
                   .at_param(where)
                   .hinting(part == "params" ? "\"node.param\"" : "\"node.port\""),
               one.place);
@@ -414,7 +430,7 @@ class Reader {
       if (!element.is_number())
         wrong_type(element, where, "two whole numbers");
       else if (element.number() != std::floor(element.number()) || std::fabs(element.number()) > 1e9)
-        add(error("not-an-integer", fmt::format("{} is {}", where, compact(element, true)))
+        add(error("not-an-integer", fmt::format("{} is {}", where, shortened(compact(element, true))))
                 .hinting("positions are whole numbers"),
             element.place);
     }
@@ -431,7 +447,9 @@ class Reader {
 
 ReadResult read_document(std::string_view text, const std::string& file, const Registry& registry,
                          bool migrate) {
-  return Reader(text, file, registry, migrate).read();
+  ReadResult result = Reader(text, file, registry, migrate).read();
+  drop_consequences(result.problems);
+  return result;
 }
 
 }  // namespace kinegraph

@@ -100,6 +100,7 @@ const Mistake mistakes[] = {
     // Shape of the file.
     {"NotAGraph", "{\"version\": 1}", "not-a-graph", 1, "{", "", "", ""},
     {"AnotherFormat", "{\"format\": \"gltf\",\n\"schema\": 1}", "not-a-graph", 1, "\"gltf\"", "", "", ""},
+    {"AMotionFile", "HIERARCHY\nROOT Hips", "not-a-graph", 1, "HIERARCHY", "", "", "kinegraph info"},
     {"AList", "[]", "not-a-graph", 1, "[", "", "", ""},
     {"NoSchema", "{\"format\": \"kinegraph\"}", "missing-key", 1, "{", "", "", "schema"},
     {"SchemaZero", "{\"format\": \"kinegraph\", \"schema\": 0}", "bad-version", 1, "0", "", "", "from 1"},

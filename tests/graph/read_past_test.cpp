@@ -1,0 +1,181 @@
+// Slips of the hand in the JSON itself don't hide what else is wrong with a graph file: each is told in its
+// place, and the rest is judged as it was meant.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "graph/file/parse_json.h"
+#include "graph/validate.h"
+#include "tests/graph/toy_graphs.h"
+#include "tests/graph/toys.h"
+
+namespace kinegraph {
+namespace {
+
+struct Slip {
+  const char* name;
+  const char* text;  // of line 3, inside the params of a Load
+  std::vector<std::string> told;
+};
+void PrintTo(const Slip& slip, std::ostream* out) {
+  *out << slip.name;
+}
+
+std::vector<std::string> in_short(const Diagnostics& problems) {
+  std::vector<std::string> all;
+  for (const Diagnostic& problem : problems)
+    all.push_back(std::to_string(problem.place.line) + ":" + std::to_string(problem.place.column) + " " +
+                  problem.code);
+  return all;
+}
+
+ReadResult judged(const std::string& text) {
+  ValidateOptions options;
+  options.file = "g.kg.json";
+  options.check_files = false;
+  return read_and_validate(text, toys::registry(), options);
+}
+
+// Line 2 has an unknown type, line 4 a misspelled parameter and a rate out of range.
+std::string between_mistakes(const std::string& line) {
+  return "{\"format\": \"kinegraph\", \"schema\": 1, \"nodes\": {\n\"z\": {\"type\": \"Laod\"},\n" + line +
+         "\n\"b\": {\"type\": \"Load\", \"params\": {\"flie\": \"x\", \"fps\": 9999}}}}";
+}
+
+const Slip slips[] = {
+    {"NotANumber", R"("a": {"type": "Load", "params": {"fps": NaN}},)", {"3:41 not-finite"}},
+    {"MinusInfinity", R"("a": {"type": "Load", "params": {"fps": -Infinity}},)", {"3:41 not-finite"}},
+    {"TooLarge", R"("a": {"type": "Load", "params": {"fps": 1e999}},)", {"3:41 not-finite"}},
+    {"NotANumberInARange", R"("a": {"type": "Load", "params": {"range": [5, NaN]}},)", {"3:47 not-finite"}},
+    {"LeadingZero", R"("a": {"type": "Load", "params": {"fps": 024}},)", {"3:41 bad-number"}},
+    {"NoDigitBeforeThePoint", R"("a": {"type": "Load", "params": {"fps": .5}},)", {"3:41 bad-number"}},
+    {"NoDigitAfterThePoint", R"("a": {"type": "Load", "params": {"fps": 5.}},)", {"3:41 bad-number"}},
+    {"Plus", R"("a": {"type": "Load", "params": {"fps": +5}},)", {"3:41 bad-number"}},
+    {"Hexadecimal", R"("a": {"type": "Load", "params": {"fps": 0x1F}},)", {"3:41 bad-number"}},
+    {"NumberWithAUnit", R"("a": {"type": "Load", "params": {"fps": 24Hz}},)", {"3:41 bad-number"}},
+    {"TwoPoints", R"("a": {"type": "Load", "params": {"fps": 1.2.3}},)", {"3:41 bad-number"}},
+    {"DecimalComma", R"("a": {"type": "Load", "params": {"fps": 23,976}},)", {"3:44 syntax"}},
+    {"TrailingComma",
+     R"("a": {"type": "Load", "params": {"fps": 24,},},)",
+     {"3:43 trailing-comma", "3:45 trailing-comma"}},
+    {"TrailingCommaInAList",
+     R"("a": {"type": "Load", "params": {"range": [1, 9,]}},)",
+     {"3:48 trailing-comma"}},
+    {"NoComma", R"("a": {"type": "Load" "params": {"fps": 24}})", {"3:22 syntax", "4:1 syntax"}},
+    {"NoCommaInAList", R"("a": {"type": "Load", "params": {"range": [1 9]}},)", {"3:46 syntax"}},
+    {"Semicolon", R"("a": {"type": "Load"; "params": {"fps": 24;}},)", {"3:21 syntax", "3:43 syntax"}},
+    {"TwoCommas", R"("a": {"type": "Load",, "params": {"fps": 24}},)", {"3:22 syntax"}},
+    {"LeadingComma",
+     R"("a": {, "type": "Load", "params": {"range": [,1, 9]}},)",
+     {"3:7 syntax", "3:46 syntax"}},
+    {"NoColon", R"("a": {"type" "Load", "params": {"fps" 24}},)", {"3:14 syntax", "3:39 syntax"}},
+    {"EqualsSign", R"("a": {"type" = "Load"},)", {"3:14 syntax"}},
+    {"NoValue", R"("a": {"type": "Load", "params": {"fps": , "unit": }},)", {"3:41 syntax", "3:51 syntax"}},
+    {"SingleQuotes",
+     R"('a': {'type': 'Load', "params": {"fps": 24}},)",
+     {"3:1 syntax", "3:7 syntax", "3:15 syntax"}},
+    {"BareWords",
+     R"(a: {type: Load, params: {fps: 24}},)",
+     {"3:1 syntax", "3:5 syntax", "3:11 syntax", "3:17 syntax", "3:26 syntax"}},
+    {"PythonsWords",
+     R"("a": {"type": "Load", "enabled": True, "params": {"range": [0, None]}},)",
+     {"3:34 syntax", "3:64 syntax"}},
+    {"Comments",
+     R"("a": {"type": "Load", /* é */ "params": {"fps": 24}}, // the walk)",
+     {"3:23 comment", "3:55 comment"}},
+    {"CommentAfterTheLastComma",
+     R"("a": {"type": "Load", "params": {"fps": 24, # as filmed
+}},)",
+     {"3:43 trailing-comma", "3:45 comment"}},
+    {"BrokenEscape",
+     R"("a": {"type": "Load", "params": {"file": "..\clips\walk.bvh"}},)",
+     {"3:42 backslash-path", "3:45 syntax"}},
+    {"TabInAString", "\"a\": {\"type\": \"Load\", \"note\": \"one\ttwo\"},", {"3:35 syntax"}},
+    {"NotUtf8", "\"a\": {\"type\": \"Load\", \"note\": \"caf\xE9, caf\xE9\"},", {"3:35 bad-utf8"}},
+    {"UnreadVersion", R"("a": {"type": "Load", "version": 0x1},)", {"3:34 bad-number"}},
+    {"UnreadVariable",
+     R"("a": {"type": "Load", "params": {"fps": "${rate}"}}}, "variables": {"rate": NaN}, "nodes": {)",
+     {"3:77 not-finite", "3:83 duplicate-key"}},
+};
+
+class ReadPast : public testing::TestWithParam<Slip> {};
+
+TEST_P(ReadPast, TheSlipAndTheRestOfTheFileAreToldTogether) {
+  const std::string text = between_mistakes(GetParam().text);
+  const int more = static_cast<int>(std::count(text.begin(), text.end(), '\n')) - 3;
+  std::vector<std::string> told = {"2:15 unknown-type"};
+  told.insert(told.end(), GetParam().told.begin(), GetParam().told.end());
+  const std::string last = std::to_string(4 + more) + ":";
+  if (GetParam().name != std::string("UnreadVariable")) {
+    told.push_back(last + "34 unknown-param");
+    told.push_back(last + "54 out-of-range");
+  }
+  const ReadResult result = judged(text);
+  EXPECT_EQ(in_short(result.problems), told) << text << "\n" << toys::all_text(result.problems);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, ReadPast, testing::ValuesIn(slips),
+                         [](const auto& slip) { return std::string(slip.param.name); });
+
+TEST(ReadPastMistakes, OfAWindowsEditorsMarkColumnsAreThoseOfTheText) {
+  EXPECT_EQ(in_short(judged("\xEF\xBB\xBF{\"format\": \"kinegraph\", \"schema\": 0}").problems),
+            (std::vector<std::string>{"1:1 byte-order-mark", "1:35 bad-version"}));
+}
+
+// What could be meant in several ways stops the reading: whatever came after would be guesswork.
+TEST(ReadPastMistakes, WhatCanBeMeantInSeveralWaysStops) {
+  for (const char* line : {"\"a\": {\"note\": \"one\ntwo\"},", "\"a\": {\"type\": \"Load\",",
+                           "\"a\": [1, 2},", "\"a\": {\"note\": \"say \"hello\" to\"},",
+                           "\"a\": {\"type\", \"note\": \"\"},", "<<<<<<< ours", "/* never ends"}) {
+    const ReadResult result = judged(between_mistakes(line));
+    EXPECT_EQ(result.problems.size(), 1u) << line << "\n" << toys::all_text(result.problems);
+    EXPECT_TRUE(result.document.nodes.empty()) << line;
+  }
+}
+
+TEST(ReadPastMistakes, ARateThatWasMeantIsJudged) {
+  const ReadResult result = judged(between_mistakes(R"("a": {"type": "Load", "params": {"fps": 02000}},)"));
+  EXPECT_EQ(result.document.nodes.at("a").params.at("fps"), Json(2000));
+}
+
+TEST(ReadPastMistakes, ManyMistakesInALargeFileEndSoon) {
+  std::string text = "{\"format\": \"kinegraph\", \"schema\": 1, \"x-a\": [";
+  for (int i = 0; i < 200'000; ++i) text += "01234567890123,";
+  const ReadResult result = judged(text + "0]}");
+  EXPECT_GT(result.problems.size(), 10u);
+  EXPECT_LT(result.problems.size(), 200u);
+}
+
+// Whatever the bytes, something is told exactly when nlohmann's own parser refuses them, and nothing twice.
+TEST(ReadPastMistakes, DamagedTextsAreNeverTakenForWholeOnes) {
+  std::mt19937 random(11);
+  const std::string damage = "{}[]\",:;=\\0123456789.eE-+ \n'#/\xC3\x80NTtruefalsn";
+  int mended = 0;
+  for (int i = 0; i < 4000; ++i) {
+    std::string text = i % 2 ? std::string(toys::example)
+                             : R"([1, -2.5e3, "a\u00e9\"\\", {"k": [true, null]}, "é", NaN, 'x'])";
+    for (int changes = 0; changes <= i % 4; ++changes) {
+      const std::size_t at = random() % text.size();
+      if (random() % 2)
+        text[at] = damage[random() % damage.size()];
+      else
+        text.erase(at, 1 + random() % 3);
+    }
+    Diagnostics strict, past;
+    parse_json(text, "", strict);
+    const Json json = parse_json_past_mistakes(text, "", past);
+    ASSERT_EQ(strict.empty(), past.empty()) << text;
+    ASSERT_GE(past.size(), strict.size()) << text;
+    std::set<std::string> once;
+    for (const std::string& one : in_short(past))
+      ASSERT_TRUE(once.insert(one).second) << text << "\n" << toys::all_text(past);
+    mended += !strict.empty() && !json.is_null();
+    judged(text);
+  }
+  EXPECT_GT(mended, 500);
+}
+
+}  // namespace
+}  // namespace kinegraph
