@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
 
 #include "graph/diagnostic.h"
 #include "nodes/feet/foot_points.h"
@@ -41,10 +44,14 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-// How all plants slide in common, m/s in the plane: the median over their frames.
-Vec3 ground_slide(const std::vector<std::vector<Vec3>>& paths, const Contacts& contacts) {
+using Paths = std::vector<std::vector<Vec3>>;
+
+// How the plants of some points slide in common, m/s in the plane: the median over their frames.
+std::optional<Vec3> common_slide(const Paths& paths, const Contacts& contacts,
+                                 const std::function<bool(const FootPoint&)>& counts) {
   std::vector<double> x, z;
   for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (!counts(contacts.points[i])) continue;
     for (std::size_t t = 1; t < contacts.frames; ++t) {
       if (!contacts.points[i].planted[t] || !contacts.points[i].planted[t - 1]) continue;
       const Vec3 step = paths[i][t] - paths[i][t - 1];
@@ -52,14 +59,46 @@ Vec3 ground_slide(const std::vector<std::vector<Vec3>>& paths, const Contacts& c
       z.push_back(step.z * contacts.fps);
     }
   }
-  if (x.empty()) return {};
-  return {median(x), 0, median(z)};
+  if (x.empty()) return std::nullopt;
+  return Vec3{median(x), 0, median(z)};
 }
 
-// The paths as seen from ground that slides.
-void stand_on(Vec3 slide, double fps, std::vector<std::vector<Vec3>>& paths) {
-  for (std::vector<Vec3>& path : paths)
-    for (std::size_t t = 0; t < path.size(); ++t) path[t] -= (static_cast<double>(t) / fps) * slide;
+// A path as seen from ground that slides.
+std::vector<Vec3> seen_from(Vec3 slide, double fps, std::vector<Vec3> path) {
+  for (std::size_t t = 0; t < path.size(); ++t) path[t] -= (static_cast<double>(t) / fps) * slide;
+  return path;
+}
+
+// Which frames of each point are planted. What is found first tells how the ground slides under all of it;
+// seen from there, two drifts of one motion look the same but for plants that one of them hid, hence again
+// until it settles; and what only a drift would excuse is no plant. The grounds that judge a point at last
+// are the clip's own, the one under all plants, and the one under its own foot: each foot of a restyled
+// motion may slide its own way, so that what is common to both is far from either.
+void find_plants(const Paths& paths, const DetectContactsParams& params, Contacts& contacts, Work& work) {
+  const auto seen = [&](std::size_t i, Vec3 slide, Ground kind) {
+    work.check();
+    return planted_frames(seen_from(slide, contacts.fps, paths[i]), contacts.fps, params, kind);
+  };
+  constexpr int rounds = 3;
+  Vec3 ground;
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      contacts.points[i].planted = seen(i, ground, Ground::sliding);
+    ground = common_slide(paths, contacts, [](const FootPoint&) { return true; }).value_or(Vec3{});
+    work.progress((round + 1.0) / (rounds + 1));
+  }
+  std::vector<std::vector<bool>> found;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const auto of_foot = [&](const FootPoint& point) { return point.foot == contacts.points[i].foot; };
+    const Vec3 under_foot = common_slide(paths, contacts, of_foot).value_or(ground);
+    found.push_back(seen(i, {}, Ground::firm));
+    for (const Vec3& slide : {ground, under_foot}) {
+      const std::vector<bool> more = seen(i, slide, Ground::firm);
+      for (std::size_t t = 0; t < more.size(); ++t) found[i][t] = found[i][t] || more[t];
+    }
+  }
+  for (std::size_t i = 0; i < paths.size(); ++i) contacts.points[i].planted = std::move(found[i]);
+  work.progress(1);
 }
 
 bool means(const ContactEdit& edit, const FootPoint& point) {
@@ -106,22 +145,9 @@ Contacts detect_contacts(const Motion& motion, const DetectContactsParams& param
   const WorldMotion world = world_motion(motion, work);
   contacts.floor = floor_under(motion.skeleton(), world, contacts.points);
   contacts.leg = leg_length(motion.skeleton());
-  std::vector<std::vector<Vec3>> paths;
+  Paths paths;
   for (const FootPoint& point : contacts.points) paths.push_back(path_of(point, world));
-  // What is found first tells how the ground slides under all of it. Seen from there, two drifts of one
-  // motion look the same but for plants that one of them hid, hence again; and what only a drift would excuse
-  // is no plant.
-  constexpr int passes = 3;
-  for (int pass = 0; pass < passes; ++pass) {
-    if (pass > 0) stand_on(ground_slide(paths, contacts), motion.fps(), paths);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      work.check();
-      contacts.points[i].planted =
-          planted_frames(paths[i], motion.fps(), params, pass + 1 < passes ? Ground::sliding : Ground::firm);
-      work.progress(static_cast<double>(pass * paths.size() + i + 1) /
-                    static_cast<double>(passes * paths.size()));
-    }
-  }
+  find_plants(paths, params, contacts, work);
   const auto planted_once = [](const FootPoint& point) { return !runs_of(point.planted).empty(); };
   if (contacts.frames > 1 && params.edits.empty() &&
       std::none_of(contacts.points.begin(), contacts.points.end(), planted_once))

@@ -48,7 +48,7 @@ NodeType detect_contacts_node() {
                           range().as("range", "frames"),
                           boolean(true).as("planted", "planted there or not").optional(Json(true))})),
              "Corrections by hand, applied in order over what was found.");
-  type.code_version = 3;
+  type.code_version = 4;
   type.compute = [](Compute& node) {
     const auto& motion = node.input<Motion>("motion");
     node.output("contacts", detect_contacts(motion, detect_contacts_params(node.params()), node.work()));
