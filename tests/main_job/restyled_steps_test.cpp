@@ -59,8 +59,6 @@ INSTANTIATE_TEST_SUITE_P(Graphs, RestyledByAGraph,
                                          Restyled{"sneaky_walk", "walk.motion", "feet.motion"},
                                          Restyled{"styled_rubber_walk", "walk.motion", "planted.motion"},
                                          Restyled{"component_transfer", "walk.motion", "feet.motion"},
-                                         Restyled{"component_transfer", "sneak.motion",
-                                                  "upright_feet.motion"},
                                          Restyled{"component_between", "walk.motion", "feet.motion"},
                                          Restyled{"component_run_walk", "walk.motion", "walk_feet.motion"}),
                          [](const auto& each) {
