@@ -4,6 +4,11 @@
 
 namespace kinegraph {
 
+// A foot that is being lifted while it is still held turns fast against its places; carried on at that speed
+// it would go on to point backwards.
+constexpr double largest_carried_turn = 0.1;  // rad, half
+constexpr double largest_carried_move = 0.1;  // m
+
 AnkleTargets ankle_targets(const FootTrack& foot, const PlantPositions& places, double fps, double blend) {
   const std::size_t frames = foot.frames();
   std::vector<Vec3> half_turn(frames);  // logs of the turns
@@ -15,7 +20,7 @@ AnkleTargets ankle_targets(const FootTrack& foot, const PlantPositions& places, 
     half_turn[t] = log(
         smallest_turn(foot.ball.from_ankle[t] - foot.heel.from_ankle[t], places.ball[t] - places.heel[t]));
   }
-  fill_smoothly(half_turn, aimed, fps, blend);
+  fill_smoothly(half_turn, aimed, fps, blend, largest_carried_turn);
 
   AnkleTargets targets;
   targets.move.resize(frames);
@@ -40,7 +45,7 @@ AnkleTargets ankle_targets(const FootTrack& foot, const PlantPositions& places, 
       targets.move[t] = needed(foot.ball, places.ball[t]);
     }
   }
-  fill_smoothly(targets.move, targets.held, fps, blend);
+  fill_smoothly(targets.move, targets.held, fps, blend, largest_carried_move);
   return targets;
 }
 

@@ -8,8 +8,29 @@
 namespace kinegraph {
 namespace {
 
+// The change at `beyond`, next to `at`, with no more than `speed` between them; where it isn't known, the
+// same.
+Vec3 speed_limited(const std::vector<Vec3>& change, const std::vector<bool>& known, std::size_t at,
+                   std::size_t beyond, double speed) {
+  if (!known[beyond]) return change[at];
+  const Vec3 step = change[beyond] - change[at];
+  const double length = norm(step);
+  return length > speed ? change[at] + speed / length * step : change[beyond];
+}
+
 // Frames [start, end) are unknown; two known ones on each side, where there are any, hold the ends.
-void fill_gap(std::vector<Vec3>& change, Run gap, double stiffness) {
+void fill_gap(std::vector<Vec3>& change, const std::vector<bool>& known, Run gap, double rate,
+              double carried) {
+  const double stiffness = rate * rate * rate * rate;
+  Vec3 before, after;  // the second ones
+  const auto speed_at = [&](std::size_t t) { return rate * std::max(norm(change[t]), carried); };
+  if (gap.start >= 2)
+    before = speed_limited(change, known, gap.start - 1, gap.start - 2, speed_at(gap.start - 1));
+  if (gap.end + 1 < change.size())
+    after = speed_limited(change, known, gap.end, gap.end + 1, speed_at(gap.end));
+  const auto beside = [&](std::size_t t) {
+    return t + 2 == gap.start ? before : t == gap.end + 1 ? after : change[t];
+  };
   const std::size_t size = gap.end - gap.start;
   BandedSystem system(size, 2);
   std::vector<double> right[3];
@@ -27,7 +48,7 @@ void fill_gap(std::vector<Vec3>& change, Run gap, double stiffness) {
         if (column >= gap.start && column < gap.end) {
           system.add(row - gap.start, column - gap.start, weight);
         } else {
-          for (int axis = 0; axis < 3; ++axis) right[axis][row - gap.start] -= weight * change[column][axis];
+          for (int axis = 0; axis < 3; ++axis) right[axis][row - gap.start] -= weight * beside(column)[axis];
         }
       }
     }
@@ -41,13 +62,14 @@ void fill_gap(std::vector<Vec3>& change, Run gap, double stiffness) {
 
 }  // namespace
 
-void fill_smoothly(std::vector<Vec3>& change, const std::vector<bool>& known, double fps, double blend) {
+void fill_smoothly(std::vector<Vec3>& change, const std::vector<bool>& known, double fps, double blend,
+                   double carried) {
   const double rate = 2 / std::max(blend * fps, 1.0);
   std::vector<bool> unknown = known;
   unknown.flip();
   for (const Run& gap : runs_of(unknown)) {
     for (std::size_t t = gap.start; t < gap.end; ++t) change[t] = {};
-    fill_gap(change, gap, rate * rate * rate * rate);
+    fill_gap(change, known, gap, rate, carried);
   }
 }
 

@@ -17,6 +17,7 @@
 namespace kinegraph {
 namespace {
 
+constexpr double largest_carried_stretch = 0.1;  // of the leg's length
 constexpr double stretch_blend = 0.06;  // s; longer ones would carry a stretch that grows at a plant's end on
 
 // World orientation of what stands above a joint.
@@ -100,7 +101,8 @@ FootskateResult clean_footskate(const Motion& motion, const Contacts& contacts, 
   work.progress(0.9);
   for (std::size_t f = 0; f < feet.size(); ++f) {
     // A swinging foot has no place to meet: its leg goes back to its length.
-    fill_smoothly(stretches[f], targets[f].held, motion.fps(), std::min(params.blend, stretch_blend));
+    fill_smoothly(stretches[f], targets[f].held, motion.fps(), std::min(params.blend, stretch_blend),
+                  largest_carried_stretch);
     double largest = 0;
     for (const Vec3& stretch : stretches[f]) largest = std::max(largest, std::abs(stretch.x));
     if (largest == 0) continue;

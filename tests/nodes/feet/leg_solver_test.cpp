@@ -5,8 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "nodes/feet/blending.h"
-
 namespace kinegraph {
 namespace {
 
@@ -48,29 +46,6 @@ TEST(LegSolver, ChangesNothingWhereNothingMoves) {
   EXPECT_NEAR(turn(change.thigh), 0, 1e-7);
   EXPECT_NEAR(turn(change.shank), 0, 1e-7);
   EXPECT_NEAR(change.stretch, 1, 1e-12);
-}
-
-TEST(Blending, LeavesKnownFramesAndDiesAway) {
-  std::vector<Vec3> change(400);
-  std::vector<bool> known(400, false);
-  for (std::size_t t = 180; t < 220; ++t) {
-    known[t] = true;
-    change[t] = {0.05, 0, 0.001 * (static_cast<double>(t) - 200)};
-  }
-  fill_smoothly(change, known, 120, 0.3);
-  for (std::size_t t = 180; t < 220; ++t) EXPECT_EQ(change[t].x, 0.05);
-  EXPECT_LT(norm(change[0]), 0.001);
-  EXPECT_LT(norm(change[399]), 0.001);
-  for (std::size_t t = 1; t + 1 < 400; ++t) {
-    const Vec3 bend = change[t - 1] - 2 * change[t] + change[t + 1];
-    EXPECT_LT(norm(bend) * 120 * 120, 8) << "no kick where it begins, at " << t;
-  }
-}
-
-TEST(Blending, KeepsZeroWhereNothingIsKnown) {
-  std::vector<Vec3> change(10, Vec3{1, 1, 1});
-  fill_smoothly(change, std::vector<bool>(10, false), 120, 0.3);
-  for (const Vec3& c : change) EXPECT_EQ(norm(c), 0);
 }
 
 }  // namespace

@@ -288,6 +288,17 @@ TEST(RetargetOnClips, links_at_one_joint_point_as_the_sources_unless_no_turn_cou
   EXPECT_LE(impossible, 18);
 }
 
+// By how much Footskate turned a foot, degrees.
+double largest_turn_of_feet(const Motion& made, const Motion& clean) {
+  const WorldMotion a = world_motion(made), b = world_motion(clean);
+  double most = 0;
+  for (const Leg& leg : find_legs(made.skeleton()))
+    for (std::size_t t = 0; t < made.frames(); ++t)
+      most =
+          std::max(most, turn(a.orientation(leg.ankle)[t], b.orientation(leg.ankle)[t]) * degrees_per_radian);
+  return most;
+}
+
 // Walks of every family of files, a run, a dance and a boxer: where the source's feet are planted, the
 // target's are.
 TEST(RetargetOnClips, plants_of_every_family_of_clips_hold_still_after_footskate) {
@@ -321,9 +332,11 @@ TEST(RetargetOnClips, plants_of_every_family_of_clips_hold_still_after_footskate
     const Contacts contacts = detect_contacts(from.motion, {}, work);
     for (const NamedBody& to : targets) {
       SCOPED_TRACE(path + " to " + to.name);
-      const FootErrors feet = foot_errors(with_clean_feet(put(from.motion, to.motion), contacts), contacts);
+      const Motion made = put(from.motion, to.motion), clean = with_clean_feet(made, contacts);
+      const FootErrors feet = foot_errors(clean, contacts);
       EXPECT_LT(feet.skate, 0.002);
       EXPECT_LT(feet.largest, 0.02);
+      EXPECT_LT(largest_turn_of_feet(made, clean), 35);
       plants += feet.plants;
     }
   }
