@@ -1,6 +1,6 @@
 // Graphs drawn from a grammar: every node type there is, its parameters of every form within their bounds,
-// links that fit, variables, publishing, layout, a studio's own data, and nodes that this program doesn't
-// know.
+// links that fit, variables, publishing, graphs inside graphs with what they publish, layout, a studio's own
+// data, and nodes that this program doesn't know.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,9 @@ namespace kinegraph {
 
 class RandomGraphs {
  public:
-  RandomGraphs(const Registry& registry, unsigned seed)
-      : registry_(registry), types_(registry.names()), random_(seed) {}
+  // `files`: graph files, and what Graph nodes that name them look like.
+  RandomGraphs(const Registry& registry, unsigned seed, std::map<std::string, NodeType> files = {})
+      : registry_(registry), types_(registry.names()), files_(std::move(files)), random_(seed) {}
 
   Document next() {
     Document document;
@@ -31,74 +32,10 @@ class RandomGraphs {
     if (one_in(10)) document.extras["x-" + word()] = any_value(3);
     return document;
   }
-  const std::map<std::string, int>& drawn() const { return drawn_; }    // node types, how often
-  const std::map<std::string, int>& params() const { return params_; }  // "Type.param", how often it was set
-
- private:
-  struct Given {
-    std::string node, port, type;
-  };
-
-  std::size_t below(std::size_t count) {
-    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
-  }
-  bool one_in(std::size_t count) { return below(count) == 0; }
-  template <class List>
-  const auto& one_of(const List& list) {
-    return list[below(list.size())];
-  }
-
-  std::string word() {
-    static const std::vector<std::string> parts = {"walk", "_", "Left", "7", "-", "arm", "x", "0q", "Stats"};
-    std::string text(1, one_of(std::string("abXYZ_")));
-    for (std::size_t i = below(5); i-- > 0;) text += one_of(parts);
-    return text;
-  }
-  std::string text() {
-    static const std::vector<std::string> parts = {"a",     "Ünï", "漢字",         "🙂", "\"",        "\\",
-                                                   "\n",    "\t",  "\x01",         "/",    "</script>", " ",
-                                                   "$${x}", "*",   "\xE2\x80\xA8", "e"};
-    std::string all;
-    for (std::size_t i = below(7); i-- > 0;) all += one_of(parts);
-    return all;
-  }
-  std::string path(const char* ending) {
-    std::string all;
-    for (std::size_t i = below(3); i-- > 0;) all += word() + "/";
-    return all + word() + std::to_string(below(1000000)) + ending;
-  }
-  double number_within(double low, double high) {
-    if (one_in(8)) return one_in(2) ? std::max(low, -1e300) : std::min(high, 1e300);
-    low = std::max(low, -1e4), high = std::min(high, 1e4);
-    const double value = std::uniform_real_distribution<double>(low, high)(random_);
-    const double round = static_cast<double>(static_cast<long long>(value * 8)) / 8;
-    return one_in(2) && round >= low && round <= high ? round : value;
-  }
-
-  Json any_value(int depth) {
-    switch (below(depth > 0 ? 7 : 5)) {
-      case 0:
-        return nullptr;
-      case 1:
-        return one_in(2);
-      case 2:
-        return number_within(-1e6, 1e6);
-      case 3:
-        return static_cast<double>(below(1000));
-      case 4:
-        return text();
-      case 5: {
-        Json::Array all;
-        for (std::size_t i = below(4); i-- > 0;) all.push_back(any_value(depth - 1));
-        return all;
-      }
-      default: {
-        Json::Object all;
-        for (std::size_t i = below(4); i-- > 0;) all[text()] = any_value(depth - 1);
-        return all;
-      }
-    }
-  }
+  const std::map<std::string, int>& drawn() const { return drawn_; }  // node types, how often
+  // "Type.param", how often it was set; of Graph nodes also "FILE.param", and "Graph.*" what no file is known
+  // to publish.
+  const std::map<std::string, int>& params() const { return params_; }
 
   // A value of the type; what a text's own grammar refuses is for the caller to drop.
   Json value_of(const ParamType& type) {
@@ -163,6 +100,72 @@ class RandomGraphs {
     return nullptr;
   }
 
+ private:
+  struct Given {
+    std::string node, port, type;
+  };
+
+  std::size_t below(std::size_t count) {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
+  }
+  bool one_in(std::size_t count) { return below(count) == 0; }
+  template <class List>
+  const typename List::value_type& one_of(const List& list) {
+    return list[below(list.size())];
+  }
+
+  std::string word() {
+    static const std::vector<std::string> parts = {"walk", "_", "Left", "7", "-", "arm", "x", "0q", "Stats"};
+    std::string text(1, one_of(std::string("abXYZ_")));
+    for (std::size_t i = below(5); i-- > 0;) text += one_of(parts);
+    return text;
+  }
+  std::string text() {
+    static const std::vector<std::string> parts = {"a",     "Ünï", "漢字",         "🙂", "\"",        "\\",
+                                                   "\n",    "\t",  "\x01",         "/",    "</script>", " ",
+                                                   "$${x}", "*",   "\xE2\x80\xA8", "e"};
+    std::string all;
+    for (std::size_t i = below(7); i-- > 0;) all += one_of(parts);
+    return all;
+  }
+  std::string path(const char* ending) {
+    std::string all;
+    for (std::size_t i = below(3); i-- > 0;) all += word() + "/";
+    return all + word() + std::to_string(below(1000000)) + ending;
+  }
+  double number_within(double low, double high) {
+    if (one_in(8)) return one_in(2) ? std::max(low, -1e300) : std::min(high, 1e300);
+    low = std::max(low, -1e4), high = std::min(high, 1e4);
+    const double value = std::uniform_real_distribution<double>(low, high)(random_);
+    const double round = static_cast<double>(static_cast<long long>(value * 8)) / 8;
+    return one_in(2) && round >= low && round <= high ? round : value;
+  }
+
+  Json any_value(int depth) {
+    switch (below(depth > 0 ? 7 : 5)) {
+      case 0:
+        return nullptr;
+      case 1:
+        return one_in(2);
+      case 2:
+        return number_within(-1e6, 1e6);
+      case 3:
+        return static_cast<double>(below(1000));
+      case 4:
+        return text();
+      case 5: {
+        Json::Array all;
+        for (std::size_t i = below(4); i-- > 0;) all.push_back(any_value(depth - 1));
+        return all;
+      }
+      default: {
+        Json::Object all;
+        for (std::size_t i = below(4); i-- > 0;) all[text()] = any_value(depth - 1);
+        return all;
+      }
+    }
+  }
+
   std::map<std::string, Json, std::less<>> variables() {
     std::map<std::string, Json, std::less<>> all;
     for (std::size_t i = 1 + below(4); i-- > 0;) all[word()] = any_value(2);
@@ -184,6 +187,23 @@ class RandomGraphs {
     node.enabled = !one_in(6);
     if (one_in(6)) node.note = text();
     if (one_in(12)) node.extras["x-" + word()] = any_value(2);
+    set_params(node, type, type_name);
+    link(node, type);
+    if (type.role == Role::graph && !files_.empty() && one_in(2)) {
+      auto file = files_.begin();
+      std::advance(file, static_cast<long>(below(files_.size())));
+      set_params(node, file->second, file->first);
+      node.params["file"] = file->first;
+      link(node, file->second);
+      give(name, file->second);
+    } else if (type.role == Role::graph) {
+      of_an_unknown_file(node);
+    }
+    give(name, type);
+    document.nodes[name] = std::move(node);
+  }
+
+  void set_params(Node& node, const NodeType& type, const std::string& counted_as) {
     for (const Param& param : type.params) {
       if (one_in(2)) continue;
       Json value = value_of(param);
@@ -192,9 +212,11 @@ class RandomGraphs {
       else if (!check(param, value, "").empty())
         continue;
       if (is_default(param, value)) continue;
-      ++params_[type_name + "." + param.name];
+      ++params_[counted_as + "." + param.name];
       node.params[param.name] = std::move(value);
     }
+  }
+  void link(Node& node, const NodeType& type) {
     for (const InputPort& port : type.inputs) {
       if (port.optional && one_in(3)) continue;
       Inputs inputs;
@@ -209,9 +231,26 @@ class RandomGraphs {
       }
       if (!inputs.links.empty()) node.inputs[port.name] = std::move(inputs);
     }
+  }
+  void give(const std::string& name, const NodeType& type) {
     for (const OutputPort& port : type.outputs)
       if (!port.type.empty()) given_.push_back({name, port.name, port.type});
-    document.nodes[name] = std::move(node);
+  }
+  // Nobody has opened the file: any parameter and port may be what it publishes.
+  void of_an_unknown_file(Node& node) {
+    for (std::size_t i = below(4); i-- > 0;) {
+      node.params[word()] = any_value(3);
+      ++params_["Graph.*"];
+    }
+    for (std::size_t i = given_.empty() ? 0 : below(3); i-- > 0;) {
+      Inputs inputs;
+      inputs.list = one_in(2);
+      for (std::size_t k = inputs.list ? 1 + below(3) : 1; k-- > 0;) {
+        const Given& from = one_of(given_);
+        inputs.links.push_back({from.node, from.port, {}});
+      }
+      node.inputs[word()] = std::move(inputs);
+    }
   }
 
   // Of a type or version that nobody here knows: kept as it stands, digit for digit.
@@ -271,6 +310,7 @@ class RandomGraphs {
 
   const Registry& registry_;
   const std::vector<std::string> types_;
+  const std::map<std::string, NodeType> files_;
   std::mt19937 random_;
   const std::map<std::string, Json, std::less<>>* variables_ = nullptr;
   std::vector<Given> given_;
