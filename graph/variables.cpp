@@ -161,10 +161,15 @@ class Substitution {
     if (const Json* found = variables_.find(name)) return found;
     if (written && variables_.batch_fills_in && is_batch_name(name)) return nullptr;
     add(error("undefined-variable", fmt::format("variable \"{}\" is not defined", name))
-            .hinting(written && is_batch_name(name) ? "only `kinegraph batch` sets it"
-                                                    : suggestion(name, variables_.names())),
+            .hinting(written && is_batch_name(name) ? "only `kinegraph batch` sets it" : how_to_define(name)),
         value, where);
     return nullptr;
+  }
+
+  std::string how_to_define(std::string_view name) const {
+    const auto names = variables_.names();
+    return fmt::format("{}--var {}=VALUE or an entry of \"variables\" defines it",
+                       names.empty() ? "" : suggestion(std::string(name), names) + "; ", name);
   }
 
   void add(Diagnostic diagnostic, const Json& value, const std::string& where) {
