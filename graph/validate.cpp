@@ -154,7 +154,7 @@ class Validator {
         problem(absolute_path(path));
       return;
     }
-    if (absolute) problem(absolute_path(path));
+    if (absolute && !is_given_outside(node, where)) problem(absolute_path(path));
     if (!options_.check_files || !node.enabled || drive) return;
     const fs::path file = fs::path(options_.folder) / path;
     std::error_code ignored;
@@ -165,6 +165,17 @@ class Validator {
     else if (!fs::is_regular_file(status))
       problem(error("not-a-regular-file", fmt::format("{} is no regular file", in_quotes(path)))
                   .hinting("it is a folder or a device; name a file"));
+  }
+
+  // Whether what the path starts with comes with --var: then it is not the file's to be the same on every
+  // machine.
+  bool is_given_outside(const Node& node, const std::string& where) const {
+    const auto stored = node.params.find(where);
+    if (stored == node.params.end() || !stored->second.is_string()) return false;
+    const std::string_view text = stored->second.string();
+    const std::size_t end = text.find('}');
+    const std::string_view name = end == text.npos ? "" : whole_variable(text.substr(0, end + 1));
+    return !name.empty() && variables_.given.contains(std::string(name));
   }
 
   static Diagnostic absolute_path(const std::string& path) {

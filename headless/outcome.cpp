@@ -54,8 +54,13 @@ std::string said_by(const NodeRun& run) {
   return text.empty() ? std::string(name_of(run.state)) : text;
 }
 
-std::string value_text(double value) {
-  return std::isfinite(value) ? shortest_number(value) : "not measured";
+std::string measured_text(double value, double limit) {
+  const auto known = [](double number) {
+    return std::isfinite(number) ? shortest_number(number) : "unknown";
+  };
+  return fmt::format("{}, limit {}",
+                     std::isfinite(value) ? "measured " + shortest_number(value) : "not measured",
+                     known(limit));
 }
 
 bool went_wrong(NodeState state) {
@@ -168,7 +173,7 @@ std::string junit_of(const Outcome& outcome, const Program& program, const Opene
       std::string inside;
       if (!rule.passed) {
         ++failures;
-        auto measured = fmt::format("measured {}, limit {}", value_text(rule.value), value_text(rule.limit));
+        const std::string measured = measured_text(rule.value, rule.limit);
         inside = fmt::format("<failure message=\"{}: {}\">{}</failure>", xml_text(rule.rule),
                              xml_text(measured), xml_text(measured));
       }

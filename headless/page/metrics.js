@@ -23,7 +23,7 @@ function draw_metrics() {
   section("Metrics", Object.keys(parts).length ? "click one for its joints" : "");
   const t = table(head("metric", ...nodes.map(node => ">" + node), ...(paired ? [">change"] : []), "", "unit"));
   for (const name of whole) {
-    const values = nodes.map(node => value(node, name)), most = Math.max(...values.map(v => Math.abs(v || 0)), 1e-300), plot = cell("wide");
+    const values = nodes.map(node => value(node, name)), most = Math.max(...values.map(v => Math.abs(v || 0)), 1e-9), plot = cell("wide");
     plot.style.minWidth = "260px";
     values.forEach((v, i) => { if (typeof v === "number") { const bar = track(Math.abs(v) / most, tint(i)); bar.style.marginTop = i ? "3px" : "4px"; plot.append(bar); } });
     const row = make("tr", parts[name] ? "more" : "plain", cell("", name), ...values.map(v => cell("n", number(v))));
@@ -37,7 +37,7 @@ function draw_metrics() {
     };
   }
   function joints_of(name) {
-    const grid = make("div", "joints"), most = Math.max(...parts[name].flatMap(part => nodes.map(node => Math.abs(value(node, part) || 0))), 1e-300);
+    const grid = make("div", "joints"), most = Math.max(...parts[name].flatMap(part => nodes.map(node => Math.abs(value(node, part) || 0))), 1e-9);
     for (const part of parts[name]) {
       const label = part.slice(name.length + 1), bars = make("div", "pair"), numbers = make("div", "num");
       nodes.forEach((node, i) => { const v = value(node, part); bars.append(track(Math.abs(v || 0) / most, tint(i))); });

@@ -5,7 +5,7 @@ function draw_diagnostics() {
   if (!rows.length) return;
   const rank = row => ["error", "warning"].indexOf(row.firstChild.textContent) + 1 || 3;
   section("Diagnostics");
-  table(head("", "where", "code", ""), ...rows.sort((a, b) => rank(a) - rank(b)));
+  table(head("", "where", "code", ""), ...rows.sort((a, b) => rank(a) - rank(b))).className = "told";
 }
 
 function draw_times() {

@@ -86,6 +86,19 @@ async function a_run() {
   await page.close();
 }
 
+async function in_a_narrow_window() {
+  const page = await Chromium.open(join(folder, "page.html"), { width: 390 });
+  await keep(page, "narrow");
+  holds("nothing is wider than 390 pixels", await page.value("document.documentElement.scrollWidth") <= 390, await page.value("document.documentElement.scrollWidth"));
+  const told = "[...document.querySelectorAll('.told td.wide')]";
+  holds("what is told stands in the window", await page.value(`${told}.length > 0 && ${told}.every(cell => cell.getBoundingClientRect().right <= 390)`), "it is cut off");
+  const before = await limbs(page, "--after");
+  await page.click(".player .play");
+  await wait(900);
+  holds("Play moves the skeleton there too", moved(before, await limbs(page, "--after")) > 300, `${moved(before, await limbs(page, "--after"))} pixels changed`);
+  await page.close();
+}
+
 async function a_failing_run_from_the_cache() {
   const graph = join(home, "graphs/style_transfer.kg.json"), cache = join(folder, "cache");
   kinegraph(0, "run", graph, "--out", folder, "--cache", cache);
@@ -113,6 +126,7 @@ async function a_batch() {
 
 try {
   await a_run();
+  await in_a_narrow_window();
   await a_failing_run_from_the_cache();
   await a_batch();
 } finally {

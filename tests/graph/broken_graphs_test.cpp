@@ -542,6 +542,16 @@ TEST_F(WholeFile, ABatchsOwnVariablesAreFineInAPathThatIsWritten) {
             std::vector<std::string>{"2:42 undefined-variable"});
 }
 
+TEST_F(WholeFile, AnAbsolutePathIsAWarningUnlessItIsGivenFromOutside) {
+  const std::string clips = (folder_ / "clips").string();
+  const std::string text = nodes(R"("a": {"type": "Load", "params": {"file": "${clips}/walk.bvh"}})",
+                                 ", \"variables\": {\"clips\": \"" + clips + "\"}");
+  EXPECT_EQ(in_short(read_and_validate(text, registry_, options_).problems),
+            std::vector<std::string>{"2:42 absolute-path"});
+  options_.variables = {{"clips", Json(clips)}};
+  EXPECT_TRUE(read_and_validate(text, registry_, options_).problems.empty());
+}
+
 TEST_F(WholeFile, AnOpenInputThatIsPublishedIsNoMistake) {
   EXPECT_TRUE(read_and_validate(
                   nodes(R"("s": {"type": "QuatStats"})", R"(, "publish": {"inputs": {"m": "s.motion"}})"),

@@ -72,8 +72,9 @@ TEST_F(Messages, ARuleTellsWhyNothingCouldBeMeasured) {
   write("unknown.kg.json", check_of("skat < 1"));
   write("null.kg.json", check_of("aligned_distance < 1"));
   write("base.kg.json", check_of("skate < baseline.skate"));
-  Ran ran = run({"run", "unknown.kg.json"});
+  Ran ran = run({"run", "unknown.kg.json", "--junit", "j.xml"});
   EXPECT_EQ(ran.exit, 4);
+  EXPECT_THAT(read("j.xml"), HasSubstr("\"skat &lt; 1: not measured, limit 1\""));
   EXPECT_THAT(ran.out, HasSubstr("failed  judge: skat < 1   not measured, limit 1"));
   EXPECT_THAT(ran.err, HasSubstr("warning: unknown-metric: judge.rules"));
   EXPECT_THAT(ran.err, HasSubstr("did you mean \"skate\"?"));
