@@ -19,7 +19,8 @@ namespace kinegraph {
 namespace {
 
 constexpr double longest_told = 3, shortest_told = 1.0 / 3;  // |w| / |v| beyond which a link is warned about
-constexpr double least_told = 1.005;  // below it no link is named: it has "1.00 times its length"
+constexpr double least_told = 1.005;       // below it no link is named: it has "1.00 times its length"
+constexpr double soft_seconds = 1 / 60.0;  // a flip's turn starts and ends in about that
 constexpr double most_turn_a_second = 30 * 120 / degrees_per_radian;  // of a link, if the input's turns less
 constexpr double least_sigma = 1e-3;  // of a frame: below it the average is the joint
 
@@ -233,7 +234,11 @@ ExaggerateResult exaggerate(const Motion& motion, const ExaggerateParams& params
     if (wished) correction.error = std::numeric_limits<double>::infinity();
     result.correction = correct_links(skeleton, on, lengths, correction, moved, work);
     const double times_input = std::max(result.omega, 1.0);  // RubberJoints may double it
-    hold_link_flips(skeleton, lengths, world, {most_turn_a_second / motion.fps(), times_input}, moved, work);
+    const double frames = soft_seconds * motion.fps();
+    hold_link_flips(skeleton, lengths, world,
+                    {most_turn_a_second / motion.fps(), times_input, 0.2,
+                     static_cast<int>(std::min(2 * frames * frames + 0.5, 64.0))},
+                    moved, work);
   }
   work.progress(0.8);
   aim_links(skeleton, links_below(motion), world, turn_limits(motion.fps()), moved, work);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double within = 0.98;     // of what it may, so that rounding in files doesn't pass it
 constexpr double opposite = -0.99;  // cosine beyond which the middle of two directions isn't known
+constexpr double at_ease = 0.5;     // of what it may, how fast a flip is spread
 
 double angle_between(Vec3 a, Vec3 b) {
   return arc_tangent2(norm(cross(a, b)), dot(a, b));
@@ -53,7 +54,10 @@ class OneLink {
     std::vector<Vec3> aim(frames), forward, backward;
     std::vector<double> most(frames);  // from the frame before; 2 π: as it likes
     for (std::size_t t = 0; t < frames; ++t) aim[t] = normalized(link_[t]);
-    for (std::size_t t = 1; t < frames; ++t) most[t] = is_free(t) ? 2 * pi : allowed(t);
+    for (std::size_t t = 1; t < frames; ++t)
+      most[t] = is_free(t) ? 2 * pi
+                           : std::max(at_ease * this->most(),
+                                      std::min(allowed(t), angle_between(link_[t - 1], link_[t])));
     const auto follow = [&](std::vector<Vec3>& way) {
       for (std::size_t t = 1; t < frames; ++t) way[t] = towards(way[t - 1], way[t], most[t]);
     };
@@ -63,12 +67,31 @@ class OneLink {
       backward[t] = towards(backward[t + 1], backward[t], most[t + 1]);
     for (std::size_t t = 0; t < frames; ++t)
       aim[t] = dot(forward[t], backward[t]) > opposite ? normalized(forward[t] + backward[t]) : forward[t];
+    soften(aim);
+    for (std::size_t t = 1; t < frames; ++t) most[t] = is_free(t) ? 2 * pi : allowed(t);
     follow(aim);  // the middle of two that go within the limit may pass it where they are far apart
     for (std::size_t t = 0; t < frames; ++t) aim[t] = norm(link_[t]) * aim[t];
     return aim;
   }
 
  private:
+  // Starts and ends turning gently, where it was made to.
+  void soften(std::vector<Vec3>& aim) const {
+    if (params_.softening == 0 || aim.size() < 3) return;
+    const auto reach = static_cast<std::size_t>(std::ceil(2 * std::sqrt(0.5 * params_.softening)));
+    std::vector<bool> turned(aim.size());
+    for (std::size_t t = 0; t < aim.size(); ++t)
+      if (dot(aim[t], normalized(link_[t])) < 1 - 1e-9)
+        for (std::size_t u = t - std::min(t, reach); u < std::min(t + reach + 1, aim.size()); ++u)
+          turned[u] = true;
+    std::vector<Vec3> before;
+    for (int pass = 0; pass < params_.softening; ++pass) {
+      before = aim;
+      for (std::size_t t = 1; t + 1 < aim.size(); ++t)
+        if (turned[t] && dot(before[t - 1], before[t + 1]) > 0)
+          aim[t] = normalized(before[t - 1] + 2 * before[t] + before[t + 1]);
+    }
+  }
   double most() const { return within * params_.most_turn; }
   bool is_free(std::size_t t) const { return norm(link_[t - 1]) <= free_ || norm(link_[t]) <= free_; }
   double allowed(std::size_t t) const {

@@ -39,8 +39,29 @@ TEST(LinkFlips, TurnALinkRoundInStepsAndCarryWhatLiesBelow) {
     EXPECT_NEAR(norm(moved.position(1)[t] - moved.position(0)[t]), norm(Vec3{-0.6, 0.1, 0}), 1e-12);
     EXPECT_NEAR(norm((moved.position(2)[t] - moved.position(1)[t]) - Vec3{0.8, 0, 0}), 0, 1e-12);
   }
-  EXPECT_LT(norm(moved.position(1)[10] - Vec3{1, 0, 0}), 1e-12);
-  EXPECT_LT(norm(moved.position(1)[30] - Vec3{-0.6, 0.1, 0}), 1e-12);
+  EXPECT_LT(norm(moved.position(1)[6] - Vec3{1, 0, 0}), 1e-12);
+  EXPECT_LT(norm(moved.position(1)[34] - Vec3{-0.6, 0.1, 0}), 1e-12);
+}
+
+TEST(LinkFlips, StartAndEndTheirTurnGently) {
+  Alone work;
+  const Motion motion = chain();
+  const WorldMotion world = world_motion(motion);
+  const auto lengths = link_lengths(motion.skeleton(), on_parent(motion), world);
+  const double most = 30 / degrees_per_radian;
+  const auto hardest = [&](int softening) {
+    WorldMotion moved = world;
+    for (std::size_t t = 20; t < 40; ++t) moved.position(1).set(t, {-0.6, 0.1, 0});
+    hold_link_flips(motion.skeleton(), lengths, world, {most, 10, 0.2, softening}, moved, work);
+    double largest = 0;
+    for (std::size_t t = 1; t < 40; ++t) {
+      EXPECT_LE(angle(moved, t), most) << t;
+      if (t > 1) largest = std::max(largest, std::fabs(angle(moved, t) - angle(moved, t - 1)));
+    }
+    EXPECT_EQ(moved.position(1)[2], world.position(1)[2]);
+    return largest;
+  };
+  EXPECT_LT(hardest(8), 0.5 * hardest(0));
 }
 
 TEST(LinkFlips, LeaveShortLinksAndWhatTheInputTurns) {
