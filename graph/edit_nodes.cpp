@@ -7,6 +7,7 @@
 #include "graph/edit.h"
 #include "graph/edit_draft.h"
 #include "graph/links.h"
+#include "graph/nested.h"
 #include "graph/variables.h"
 
 namespace kinegraph {
@@ -123,7 +124,11 @@ Edit rename_node(const Document& document, const std::string& from, const std::s
 
 Edit set_param(const Document& document, const Registry& registry, const std::string& node,
                const std::string& param, const Json& value) {
-  const NodeType& type = type_or_fail(document, registry, node);
+  // A Graph node whose file can't be used still has the parameter that names another.
+  const Node& stored = node_or_fail(document, node);
+  const bool unusable = !stored.missing && stored.nested && !stored.nested->type;
+  const NodeType* own = unusable ? registry.find(stored.type) : nullptr;
+  const NodeType& type = own ? *own : type_or_fail(document, registry, node);
   const Param* known = type.find_param(param);
   if (!known && type.role != Role::graph)
     throw Failure(error("unknown-param", fmt::format("{} has no parameter \"{}\"", type.name, param))

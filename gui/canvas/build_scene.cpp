@@ -237,6 +237,7 @@ void GraphScene::rebuild(const Document& document, const Registry& registry,
       note.text = QString::fromStdString(text->string());
     notes_.push_back(std::move(note));
   }
+  raise({});
   place_wires();
   if (!unplaced.empty()) arrange_unplaced(unplaced);
   place_frames();

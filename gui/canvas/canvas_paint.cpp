@@ -116,7 +116,8 @@ void GraphCanvas::paint_wires(QPainter& p, const QRectF& seen) {
 
 void GraphCanvas::paint_nodes(QPainter& p, const QRectF& seen) {
   pixmaps_.begin(zoom_, devicePixelRatioF(), resting_ ? 40 : budget_while_moving_ms);
-  for (const SceneNode& node : scene_.nodes()) {
+  for (const std::size_t index : scene_.order()) {
+    const SceneNode& node = scene_.nodes()[index];
     if (!node.rect.adjusted(-8, -8, 8, 8).intersects(seen)) continue;
     const NodeStatus* status = evaluation_.status(node.name);
     const QPointF at = to_view(node.rect.topLeft());

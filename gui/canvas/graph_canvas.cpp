@@ -40,7 +40,10 @@ GraphCanvas::GraphCanvas(Session& session, Evaluation& evaluation, QWidget* pare
     pixmaps_.forget();
     update();
   });
-  connect(&session_, &Session::selection_changed, this, qOverload<>(&QWidget::update));
+  connect(&session_, &Session::selection_changed, this, [this] {
+    scene_.raise(session_.selected());
+    update();
+  });
   connect(&evaluation_, &Evaluation::status_changed, this, [this](const QString& node) {
     pixmaps_.forget(node.toStdString());
     update();
@@ -59,6 +62,7 @@ void GraphCanvas::set_theme(const Theme& theme) {
 
 void GraphCanvas::rebuild() {
   scene_.rebuild(session_.document(), session_.registry(), expanded_);
+  scene_.raise(session_.selected());
   std::erase_if(selected_frames_,
                 [&](const auto& name) { return !session_.document().ui.frames.count(name); });
   std::erase_if(selected_notes_, [&](const auto& name) { return !session_.document().ui.notes.count(name); });

@@ -97,29 +97,36 @@ void GraphScene::shift(const std::set<std::string>& names, QPointF by) {
   place_frames();
 }
 
+void GraphScene::raise(const std::set<std::string>& names) {
+  order_.clear();
+  for (const bool raised : {false, true})
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if ((names.count(nodes_[i].name) > 0) == raised) order_.push_back(i);
+}
+
 const SceneNode* GraphScene::node_at(QPointF at) const {
-  for (auto one = nodes_.rbegin(); one != nodes_.rend(); ++one)
-    if (one->rect.contains(at)) return &*one;
+  for (auto one = order_.rbegin(); one != order_.rend(); ++one)
+    if (nodes_[*one].rect.contains(at)) return &nodes_[*one];
   return nullptr;
 }
 
 std::optional<PortAt> GraphScene::port_at(QPointF at, double reach) const {
-  // Later nodes lie on top of earlier ones and hide their ports.
-  const auto is_covered = [&](std::size_t owner, QPointF point) {
-    for (std::size_t i = owner + 1; i < nodes_.size(); ++i)
-      if (nodes_[i].rect.contains(point)) return true;
+  // A node hides the ports of those below it.
+  const auto is_covered = [&](std::size_t place, QPointF point) {
+    for (std::size_t above = place + 1; above < order_.size(); ++above)
+      if (nodes_[order_[above]].rect.contains(point)) return true;
     return false;
   };
   double best = reach;
   std::optional<PortAt> found;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const SceneNode& one = nodes_[i];
-    if (!one.rect.adjusted(-reach, -reach, reach, reach).contains(at) || is_covered(i, at)) continue;
+  for (std::size_t place = 0; place < order_.size(); ++place) {
+    const SceneNode& one = nodes_[order_[place]];
+    if (!one.rect.adjusted(-reach, -reach, reach, reach).contains(at) || is_covered(place, at)) continue;
     for (bool input : {true, false})
       for (const ScenePort& port : input ? one.inputs : one.outputs) {
-        const QPointF place = one.rect.topLeft() + port.at;
-        const double distance = QLineF(at, place).length();
-        if (distance >= best || is_covered(i, place)) continue;
+        const QPointF spot = one.rect.topLeft() + port.at;
+        const double distance = QLineF(at, spot).length();
+        if (distance >= best || is_covered(place, spot)) continue;
         best = distance;
         found = PortAt{one.name, port.name, input};
       }

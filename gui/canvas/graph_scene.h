@@ -84,6 +84,9 @@ class GraphScene {
   const std::vector<SceneFrame>& frames() const { return frames_; }
   const std::vector<SceneNote>& notes() const { return notes_; }
   const SceneNode* node(const std::string& name) const;
+  // The order of drawing, as indices of nodes(): what is raised lies on top, for the hand as for the eye.
+  const std::vector<std::size_t>& order() const { return order_; }
+  void raise(const std::set<std::string>& nodes);
   QRectF bounds() const;  // of everything; null when there is nothing
   QRectF bounds_of(const std::set<std::string>& nodes) const;
 
@@ -107,6 +110,7 @@ class GraphScene {
 
   std::vector<SceneNode> nodes_;
   std::map<std::string, std::size_t> by_name_;
+  std::vector<std::size_t> order_;
   std::vector<SceneWire> wires_;
   std::vector<SceneFrame> frames_;
   std::vector<SceneNote> notes_;

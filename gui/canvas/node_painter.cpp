@@ -172,7 +172,7 @@ QString instead_of_still(NodeStatus::State state) {
   using State = NodeStatus::State;
   switch (state) {
     case State::idle:
-      return QObject::tr("click to see it");
+      return QObject::tr("not computed yet");
     case State::waiting:
     case State::running:
       return QObject::tr("in the making");

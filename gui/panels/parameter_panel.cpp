@@ -122,7 +122,9 @@ void ParameterPanel::set_theme(const Theme& theme) {
 const NodeType* ParameterPanel::type() const {
   auto found = session_.document().nodes.find(node_);
   if (found == session_.document().nodes.end()) return nullptr;
-  return known_type(session_.registry(), found->second);
+  if (const NodeType* known = known_type(session_.registry(), found->second)) return known;
+  // A Graph node whose file can't be used: what names the file is there to be mended.
+  return found->second.missing ? nullptr : session_.registry().find(found->second.type);
 }
 
 void ParameterPanel::show_node() {
@@ -134,22 +136,29 @@ void ParameterPanel::show_node() {
                                            ? tr("%1 nodes are selected.").arg(session_.selected().size())
                                            : tr("Select a node to see its parameters."));
   if (!some) return;
-  if (found->second.type != node_type_ || found->second.missing) {
-    node_type_ = found->second.type;
+  // Two Graph nodes may have different parameters, and one node others when its file changes.
+  const NodeType* described = type();
+  QStringList names{QString::fromStdString(found->second.type)};
+  if (described)
+    for (const Param& param : described->params) names << QString::fromStdString(param.name);
+  const std::string rows = names.join('\n').toStdString();
+  if (rows != node_type_ || found->second.missing) {
+    node_type_ = rows;
     rows_.clear();
-    scroll_->setWidget(nullptr);
-    if (const NodeType* known = type()) {
-      build(*known);
+    // One of the old fields may be what is telling of the change.
+    if (QWidget* old = scroll_->takeWidget()) {
+      old->hide();
+      old->deleteLater();
+    }
+    if (described) {
+      build(*described);
     } else {
       node_type_.clear();
       help_->clear();
-      auto* words =
-          faint_label(found->second.nested || found->second.type == "Graph"
-                          ? tr("The graph file of this node can't be used. Choose another among its "
-                               "parameters once it is there again; what is set here is kept.")
-                          : tr("This node's type is not known to this Kinegraph. It is kept as it is "
-                               "and saved back unchanged; install the version that made it to run it."),
-                      nullptr);
+      auto* words = faint_label(
+          tr("This node's type is not known to this Kinegraph. It is kept as it is and saved back "
+             "unchanged; install the version that made it to run it."),
+          nullptr);
       words->setAlignment(Qt::AlignTop | Qt::AlignLeft);
       scroll_->setWidget(words);
     }

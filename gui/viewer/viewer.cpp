@@ -111,10 +111,11 @@ void Viewer::build() {
   words_ = new QLabel(stage_);
   words_->setAlignment(Qt::AlignCenter);
   words_->setWordWrap(true);
+  words_->setMinimumWidth(260);
   words_->setAttribute(Qt::WA_TransparentForMouseEvents);
   auto* over = new QVBoxLayout(stage_);
   over->setContentsMargins(28, 12, 28, 12);
-  over->addWidget(words_);
+  over->addWidget(words_, 0, Qt::AlignCenter);
 
   connect(stage_, &Stage::wipe_moved, this, &Viewer::update_scene);
   connect(stage_, &Stage::clicked, this, [this] { setFocus(Qt::MouseFocusReason); });
@@ -175,9 +176,14 @@ void Viewer::set_ghosts(int frames) {
 
 void Viewer::set_theme(const Theme& theme) {
   theme_ = &theme;
-  QPalette colors = words_->palette();
-  colors.setColor(QPalette::WindowText, theme.faint_text);
-  words_->setPalette(colors);
+  // On a ground of its own: the floor's lines would run through the letters.
+  const QColor& ground = theme.panel;
+  words_->setStyleSheet(QString("background: rgba(%1, %2, %3, 215); color: %4; border-radius: 6px; "
+                                "padding: 10px 14px;")
+                            .arg(ground.red())
+                            .arg(ground.green())
+                            .arg(ground.blue())
+                            .arg(theme.text.name()));
   stage_->set_colors(colors_of(theme), theme);
   follow_->setIcon(icon(Sign::follow, theme));
   frame_->setIcon(icon(Sign::frame, theme));

@@ -129,7 +129,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   if (options_.remember) {
     const auto settings = user_settings();
     restoreGeometry(settings->value("window/geometry").toByteArray());
-    restoreState(settings->value("window/layout").toByteArray(), layout_version);
+    laid_out_ = restoreState(settings->value("window/layout").toByteArray(), layout_version);
     dark = settings->value("window/theme", "dark").toString() != "light";
   }
   set_theme(dark ? dark_theme() : light_theme());
@@ -234,6 +234,12 @@ void MainWindow::update_title() {
   update_pages();
   setWindowTitle(tr("%1[*] – Kinegraph").arg(session_.title()));
   setWindowModified(session_.is_modified());
+}
+
+// Sizes that docks get before the window has its own don't last.
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  if (!std::exchange(laid_out_, true)) QTimer::singleShot(0, this, &MainWindow::size_docks);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

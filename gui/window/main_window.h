@@ -59,6 +59,7 @@ class MainWindow : public QMainWindow {
 
  protected:
   void closeEvent(QCloseEvent* event) override;
+  void showEvent(QShowEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
 
@@ -79,6 +80,7 @@ class MainWindow : public QMainWindow {
   void update_pages();
   void update_dock_titles();
   void usual_layout();
+  void size_docks();
   void go_to_dock(const QString& name);
 
   void new_graph();
@@ -126,6 +128,7 @@ class MainWindow : public QMainWindow {
   QFileSystemWatcher watcher_;
   QTimer reload_;
   KnownFiles known_files_;
+  bool laid_out_ = false;  // the docks have their sizes
   bool evaluation_due_ = false, inside_changed_ = false;
 };
 

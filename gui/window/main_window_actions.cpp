@@ -196,10 +196,11 @@ void MainWindow::show_keys() {
 }
 
 void MainWindow::about() {
-  QMessageBox::about(
-      this, tr("About Kinegraph"),
-      tr("<b>Kinegraph</b><br>A compositor for character motion. The same graphs run here and with "
-         "<tt>kinegraph run</tt>."));
+  QMessageBox box(QMessageBox::NoIcon, tr("About Kinegraph"), tr("Kinegraph"), QMessageBox::Close, this);
+  box.setInformativeText(
+      tr("A compositor for character motion: graphs of nodes over captured and made clips. The same graphs "
+         "run here and with \"kinegraph run\"."));
+  box.exec();
 }
 
 }  // namespace kinegraph

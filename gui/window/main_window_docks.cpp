@@ -96,10 +96,14 @@ void MainWindow::usual_layout() {
   for (std::size_t i = 4; i < docks_.size(); ++i) tabifyDockWidget(docks_[i - 1], docks_[i]);
   parameters->raise();
   docks_[3]->raise();
-  resizeDocks({viewer, docks_[3]}, {440, 840}, Qt::Horizontal);
-  resizeDocks({viewer, parameters}, {415, 335}, Qt::Vertical);
-  resizeDocks({docks_[3]}, {270}, Qt::Vertical);
+  size_docks();
   QMetaObject::invokeMethod(this, &MainWindow::update_dock_titles, Qt::QueuedConnection);
+}
+
+void MainWindow::size_docks() {
+  resizeDocks({docks_[0], docks_[3]}, {440, 840}, Qt::Horizontal);
+  resizeDocks({docks_[0], docks_[1]}, {350, 400}, Qt::Vertical);
+  resizeDocks({docks_[3]}, {270}, Qt::Vertical);
 }
 
 // A dock among tabs has its name on its tab already.

@@ -21,7 +21,10 @@ NoticeBar::NoticeBar(QWidget* parent)
 }
 
 void NoticeBar::say(const QString& message, std::vector<Answer> answers, int seconds) {
-  for (QWidget* button : buttons_) button->deleteLater();
+  for (QWidget* button : buttons_) {
+    button->hide();  // one of them may have been clicked just now
+    button->deleteLater();
+  }
   buttons_.clear();
   label_->setText(message);
   answers.push_back({tr("Close"), [] {}});

@@ -163,6 +163,7 @@ QComboBox QAbstractItemView { background: %2; border: 1px solid %3; selection-ba
 kinegraph--ParamField QToolButton { background: %2; border: 1px solid %3; padding: 3px 8px; }
 kinegraph--ParamField QToolButton:hover { border-color: %5; }
 QToolButton#row_menu { padding: 2px 0px; color: %7; } QToolButton#row_menu:hover { color: %4; }
+QFileDialog QToolButton { padding: 3px; }
 QLabel#faint { color: %7; }
 QMessageBox QLabel#qt_msgbox_label { font-weight: 600; min-width: 300px; }
 QLineEdit#node_name { font-weight: 600; }

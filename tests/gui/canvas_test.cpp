@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <QClipboard>
+#include <QContextMenuEvent>
 #include <QDir>
 #include <QFileInfo>
 
@@ -268,6 +269,29 @@ TEST(EditorCanvas, APortUnderAnotherNodeIsNotGrabbed) {
   EXPECT_NE(editor.canvas().scene().node(covering)->rect.topLeft(), before);
   EXPECT_EQ(editor.links(editor.metrics, "motion"), 0u);
   EXPECT_FALSE(editor.canvas().findChild<QWidget*>("search_box")->isVisible());
+}
+
+TEST(EditorCanvas, TheMenuOfALinkCutsItOrPutsADot) {
+  TwoNodes editor;
+  editor.drag(editor.port(editor.gait, "motion", false), editor.port(editor.metrics, "motion", true));
+  const auto choose = [&](int entry) {
+    const SceneWire& wire = editor.canvas().scene().wires().front();
+    const QPoint at = editor.canvas().to_view((wire.line.first() + wire.line.last()) / 2).toPoint();
+    editor.when_asked([entry](QWidget& menu) {
+      for (int i = 0; i <= entry; ++i) QTest::keyClick(&menu, Qt::Key_Down);
+      QTest::keyClick(&menu, Qt::Key_Return);
+    });
+    QContextMenuEvent event(QContextMenuEvent::Mouse, at, editor.canvas().mapToGlobal(at));
+    QApplication::sendEvent(&editor.canvas(), &event);
+    editor.settle();
+  };
+  choose(0);
+  ASSERT_EQ(editor.document().nodes.size(), 3u);
+  const std::string from = editor.document().nodes.at(editor.metrics).inputs.at("motion").links[0].node;
+  EXPECT_EQ(editor.document().nodes.at(from).type, "Dot");
+  editor.key(Qt::Key_Z, Qt::ControlModifier);
+  choose(1);
+  EXPECT_EQ(editor.links(editor.metrics, "motion"), 0u);
 }
 
 TEST(EditorCanvas, ANodeThatIsNotLinkedYetSaysWhatItNeeds) {

@@ -172,6 +172,31 @@ TEST(EditorEvaluation, AMotionsNodeHasAStill) {
   EXPECT_FALSE(editor.canvas().scene().node(gait)->still.isNull());
 }
 
+TEST(EditorPages, AGraphNodeWhoseFileIsGoneIsMendedAmongItsParameters) {
+  Reuse editor;
+  editor.session().select({"sneaky"}, "sneaky");
+  const auto file_field = [&] {
+    auto* row = editor.window.findChild<QWidget*>("param_file");
+    return row ? row->findChild<QLineEdit*>() : nullptr;
+  };
+  const auto name = [&](const QString& path) {
+    QLineEdit* line = file_field();
+    ASSERT_TRUE(line);
+    QTest::mouseClick(line, Qt::LeftButton);
+    editor.key(Qt::Key_A, Qt::ControlModifier);
+    editor.type(path);
+    editor.key(Qt::Key_Return);
+  };
+  ASSERT_TRUE(file_field());
+  const QString right = file_field()->text();
+  name("pipelines/nowhere.kg.json");
+  EXPECT_TRUE(has_error(editor.session().problems()));
+  name(right);
+  EXPECT_FALSE(has_error(editor.session().problems()));
+  editor.key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_TRUE(has_error(editor.session().problems()));
+}
+
 TEST(EditorPages, EachPageKeepsThePinsOfItsViewer) {
   Editor editor;
   const QString graphs = QString(KINEGRAPH_SOURCE_DIR) + "/graphs/";

@@ -33,6 +33,9 @@ TEST(EditorSearch, FindsByInitialsAndKeywords) {
   EXPECT_GT(fuzzy_score("save", "Export", {"save", "write"}), 0);
   EXPECT_EQ(fuzzy_score("xyz", "StyleTransfer", {"mood"}), 0);
   EXPECT_GT(fuzzy_score("trim", "Trim", {}), fuzzy_score("trim", "Resample", {"trim"}));
+  // A node of the family before one that is only found by the word.
+  EXPECT_GT(fuzzy_score("style", "QuatStats", {"style"}),
+            fuzzy_score("style", "ICA", {"components", "style"}));
 }
 
 double number(Editor& editor, const std::string& node, const char* param) {

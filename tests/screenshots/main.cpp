@@ -1,5 +1,5 @@
 // Writes the pictures of docs/editor: every port type, node state, dock, dialog, error and empty state.
-//   editor_screenshots FOLDER dark|light|large [NAME]
+//   editor_screenshots FOLDER dark|light|large|qpainter
 #include <QCheckBox>
 #include <QMessageBox>
 #include <QStandardPaths>
@@ -71,6 +71,8 @@ void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
   {
     Shot shot(theme, into, {1500, 1400});
     shot.text(states);
+    shot.select("done");
+    shot.wait(800);
     shot.select("waiting");
     shot.canvas().frame_all();
     QElapsedTimer clock;
@@ -145,33 +147,6 @@ void docks(const Theme& theme, const QDir& into, const QString& end) {
     Shot shot(theme, into);
     shot.open("style_transfer");
     shot.window.playback().set_time(0.9);
-    Viewer::Looks looks;
-    looks.trails = true;
-    shot.viewer().set_looks(looks);
-    shot.wait();
-    shot.take_dock("viewer_trails" + end, "Viewer");
-    looks.trails = false;
-    looks.ghosts = 30;
-    looks.follow = false;
-    shot.viewer().set_looks(looks);
-    shot.viewer().frame_all();
-    shot.wait();
-    shot.take_dock("viewer_ghosts" + end, "Viewer");
-    looks.ghosts = 0;
-    looks.follow = true;
-    shot.viewer().set_looks(looks);
-    shot.viewer().pin(1, "walk");
-    shot.viewer().pin(2, "feet");
-    shot.viewer().frame_all();
-    shot.wait();
-    shot.take_dock("viewer_side_by_side" + end, "Viewer");
-    shot.viewer().set_arrangement(Viewer::Arrangement::overlaid);
-    shot.viewer().frame_all();
-    shot.wait();
-    shot.take_dock("viewer_overlaid" + end, "Viewer");
-    shot.viewer().set_arrangement(Viewer::Arrangement::wipe);
-    shot.wait();
-    shot.take_dock("viewer_wipe" + end, "Viewer");
     shot.select("warp");
     shot.take_dock("timeline_warp" + end, "Timeline");
     shot.take_dock("curves_warp" + end, "Curves");
@@ -211,29 +186,14 @@ void docks(const Theme& theme, const QDir& into, const QString& end) {
   {
     Shot shot(theme, into);
     shot.text(R"("sparks": {"type": "Burst"})");
-    shot.window.playback().set_time(0.6);
-    shot.wait();
-    shot.take_dock("viewer_points" + end, "Viewer");
     shot.take_dock("components_empty" + end, "Components");
     shot.take_dock("problems_empty" + end, "Problems");
   }
   {
     Shot shot(theme, into);
     shot.open("cartoon_walk");
-    shot.window.playback().set_time(0.4);
-    shot.wait();
-    shot.take_dock("viewer_stretch" + end, "Viewer");
     shot.select("rubber");
     shot.take_dock("parameters_groups" + end, "Parameters");
-  }
-  {
-    Shot shot(theme, into);
-    shot.text(R"("walk": {"type": "Load", "params": {"file": "characters/mannequin.glb"}})");
-    shot.window.playback().set_time(0.4);
-    shot.wait();
-    shot.viewer().frame_all();
-    shot.wait();
-    shot.take_dock("viewer_character" + end, "Viewer");
   }
   {
     Shot shot(theme, into);
@@ -331,7 +291,7 @@ int main(int argc, char** argv) {
   QApplication::setApplicationName("kinegraph-editor");
   QApplication::setStyle(QStyleFactory::create("Fusion"));
   if (argc < 3) {
-    std::fprintf(stderr, "editor_screenshots FOLDER dark|light|large\n");
+    std::fprintf(stderr, "editor_screenshots FOLDER dark|light|large|qpainter\n");
     return 2;
   }
   using namespace kinegraph;
@@ -351,11 +311,19 @@ int main(int argc, char** argv) {
     }
     return 0;
   }
+  if (what == "qpainter") {
+    // With QT_QPA_PLATFORM=offscreen in the environment: what is seen where there is no OpenGL.
+    shots::viewer_pictures(dark_theme(), into, "_qpainter");
+    shots::viewer_pictures(light_theme(), into, "_qpainter_light");
+    return 0;
+  }
   const Theme& theme = what == "light" ? light_theme() : dark_theme();
   const QString end = what == "light" ? "_light" : "";
   shots::graph_pictures(theme, into, end);
   shots::gestures(theme, into, end);
+  shots::viewer_pictures(theme, into, end);
   shots::docks(theme, into, end);
+  shots::menus_and_messages(theme, into, end);
   shots::troubles(theme, into, end);
   return 0;
 }

@@ -1,6 +1,7 @@
 // A window of the editor that pictures are taken of: opened on a graph, waited for, written as PNG.
 #pragma once
 #include <QApplication>
+#include <QContextMenuEvent>
 #include <QDialog>
 #include <QDir>
 #include <QElapsedTimer>
@@ -96,7 +97,21 @@ struct Shot {
     });
     timer.start(after_ms);
     open();
+    QElapsedTimer clock;
+    for (clock.start(); !taken && clock.elapsed() < after_ms + 3000;)
+      QApplication::processEvents(QEventLoop::AllEvents, 20);
+    if (!taken) qWarning("nothing came up for %s", qPrintable(name));
     wait(100);
+  }
+  void take_menu_at(const QString& name, QPoint view) {
+    take_popup(name, [&] {
+      QContextMenuEvent event(QContextMenuEvent::Mouse, view, canvas().mapToGlobal(view));
+      QApplication::sendEvent(&canvas(), &event);
+    });
+  }
+  QPoint view_of(const std::string& node) {
+    const QRectF box = canvas().scene().node(node)->rect;
+    return canvas().to_view(QPointF(box.center().x(), box.top() + 14)).toPoint();
   }
   void press(Qt::Key key, Qt::KeyboardModifiers keys = Qt::NoModifier) {
     QWidget* at = QApplication::focusWidget() ? QApplication::focusWidget() : &canvas();
@@ -128,5 +143,9 @@ struct Shot {
  private:
   QDir into_;
 };
+
+// Into the folder, with names that end in `end`.
+void viewer_pictures(const Theme& theme, const QDir& into, const QString& end);
+void menus_and_messages(const Theme& theme, const QDir& into, const QString& end);
 
 }  // namespace kinegraph::shots
