@@ -73,4 +73,41 @@ void fill_smoothly(std::vector<Vec3>& change, const std::vector<bool>& known, do
   }
 }
 
+std::vector<double> rise_smoothly(const std::vector<double>& need, const std::vector<bool>& fixed, double fps,
+                                  double blend) {
+  constexpr double give = 0.02;  // s
+  constexpr int rounds = 12;
+  const double rate = 2 / std::max(blend * fps, 1.0), force = 1 / std::max(give * fps, 1.0);
+  std::vector<double> rise(need.size(), 0.0);
+  std::vector<bool> free = fixed;
+  free.flip();
+  for (const Run& gap : runs_of(free)) {
+    const auto begin = need.begin();
+    if (std::none_of(begin + static_cast<std::ptrdiff_t>(gap.start),
+                     begin + static_cast<std::ptrdiff_t>(gap.end), [](double n) { return n > 0; }))
+      continue;
+    // Which frames push changes with the rise: found in a few rounds.
+    for (int round = 0; round < rounds; ++round) {
+      BandedSystem system(gap.end - gap.start, 2);
+      std::vector<double> right(gap.end - gap.start, 0.0);
+      for (std::size_t t = gap.start; t < gap.end; ++t) {
+        const bool pushes = need[t] > 0 && rise[t] < need[t];
+        const double push = pushes ? force * force * force * force : 0;
+        system.add(t - gap.start, t - gap.start, rate * rate * rate * rate + push);
+        right[t - gap.start] = push * need[t];
+      }
+      static constexpr double difference[3] = {1, -2, 1};
+      for (std::size_t t = gap.start < 2 ? 0 : gap.start - 2; t + 2 < need.size() && t < gap.end; ++t)
+        for (std::size_t a = 0; a < 3; ++a)
+          for (std::size_t b = 0; b <= a; ++b)
+            if (t + b >= gap.start && t + a < gap.end)
+              system.add(t + a - gap.start, t + b - gap.start, difference[a] * difference[b]);
+      system.factor();
+      system.solve(right);
+      std::copy(right.begin(), right.end(), rise.begin() + static_cast<std::ptrdiff_t>(gap.start));
+    }
+  }
+  return rise;
+}
+
 }  // namespace kinegraph

@@ -13,4 +13,10 @@ namespace kinegraph {
 void fill_smoothly(std::vector<Vec3>& change, const std::vector<bool>& known, double fps, double blend,
                    double carried);
 
+// A rise that is at least about `need` in each frame and zero in the `fixed` ones: least Σ (second
+// difference)²
+// + (2 / blend)⁴ rise² + (1 / 0.02 s)⁴ max(0, need - rise)², so that it doesn't jerk where the need does.
+std::vector<double> rise_smoothly(const std::vector<double>& need, const std::vector<bool>& fixed, double fps,
+                                  double blend);
+
 }  // namespace kinegraph

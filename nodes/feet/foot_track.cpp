@@ -40,6 +40,14 @@ std::vector<FootTrack> foot_tracks(const Skeleton& skeleton, const WorldMotion& 
       for (std::size_t t = 0; t < world.frames(); ++t)
         part.from_ankle[t] = point_at(world, joint, point.local, t) - foot.ankle[t];
     }
+    const auto from_ankle = [&](int joint, Vec3 local) {
+      std::vector<Vec3> path(world.frames());
+      for (std::size_t t = 0; t < path.size(); ++t)
+        path[t] = point_at(world, joint, local, t) - foot.ankle[t];
+      return path;
+    };
+    if (leg.toe >= 0) foot.toe_from_ankle = from_ankle(leg.toe, {});
+    if (leg.toe_tip) foot.tip_from_ankle = from_ankle(leg.toe >= 0 ? leg.toe : leg.ankle, *leg.toe_tip);
     feet.push_back(std::move(foot));
   }
   if (feet.empty() || contacts.points.empty()) {

@@ -22,6 +22,7 @@ struct FootTrack {
     bool planted_at(std::size_t t) const { return !planted.empty() && planted[t]; }
   };
   Part heel, ball;
+  std::vector<Vec3> toe_from_ankle, tip_from_ankle;  // toe joint and its End Site; empty = the foot has none
   std::size_t frames() const { return ankle.size(); }
 };
 

@@ -8,6 +8,7 @@
 #include "graph/diagnostic.h"
 #include "nodes/feet/ankle_targets.h"
 #include "nodes/feet/blending.h"
+#include "nodes/feet/floor_clearance.h"
 #include "nodes/feet/foot_track.h"
 #include "nodes/feet/leg_solver.h"
 #include "nodes/feet/plant_positions.h"
@@ -47,16 +48,22 @@ FootskateResult clean_footskate(const Motion& motion, const Contacts& contacts, 
   const Skeleton& skeleton = motion.skeleton();
   const WorldMotion world = world_motion(motion, work);
   const std::vector<FootTrack> feet = foot_tracks(skeleton, world, contacts);
+  const FloorLimits floor = floor_limits(contacts, params.floor);
   std::vector<AnkleTargets> targets;
+  std::vector<std::vector<Quat>> toes;
   for (const FootTrack& foot : feet) {
     work.check();
     const PlantPositions places = plant_positions(foot, motion.fps(), params.floor, contacts.floor);
     AnkleTargets target = ankle_targets(foot, places, motion.fps(), params.blend);
+    lift_off_floor(foot, floor, motion.fps(), params.blend, target);
+    std::vector<Quat> toe = toe_turns(foot, floor, motion.fps(), params.blend, target);
     for (std::size_t t = 0; t < motion.frames(); ++t) {
       target.move[t] *= weights[t];
+      if (!toe.empty() && weights[t] != 1) toe[t] = slerp(weights[t], Quat{}, toe[t]);
       if (weights[t] != 1) target.turn[t] = slerp(weights[t], Quat{}, target.turn[t]);
     }
     targets.push_back(std::move(target));
+    toes.push_back(std::move(toe));
   }
   work.progress(0.3);
   const double damping = params.knee_damping / degrees_per_radian;
@@ -96,6 +103,7 @@ FootskateResult clean_footskate(const Motion& motion, const Contacts& contacts, 
       set(leg.hip, Quat{}, change.thigh);
       set(leg.knee, change.thigh, change.shank);
       set(leg.ankle, change.shank, targets[f].turn[t]);
+      if (!toes[f].empty()) set(leg.toe, targets[f].turn[t], toes[f][t] * targets[f].turn[t]);
     }
   }
   work.progress(0.9);

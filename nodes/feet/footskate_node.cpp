@@ -67,7 +67,9 @@ NodeType footskate_node() {
   type.param("knee_damping", number(defaults.knee_damping).between(0, 180).in("°").slider(0, 150),
              "Flexion from which on the knee bends freely; towards extension it keeps its angle, so that it "
              "can't pop.");
-  type.param("floor", either({choice({{"auto", "each plant is put at the height where its contact was found"}}), number(0).in("m")}),
+  type.param("floor",
+             either({choice({{"auto", "each plant is put at the height where its contact was found"}}),
+                     number(0).in("m")}),
              "Height of the floor that plants are put on.");
   type.param("root_smoothing", number(defaults.root_smoothing).between(0, 10).in("s").slider(0, 0.5),
              "Smoothness of the root's help; more leaves more to the legs.");

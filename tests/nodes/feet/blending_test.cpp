@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace kinegraph {
 namespace {
@@ -68,6 +69,21 @@ TEST(Blending, CarriesAFastEndNotMuchFurtherThanItIs) {
         most = std::max(most, norm(changes.change[mirrored ? 200 - k : 200 + k]));
       EXPECT_LT(most, 1.3 * size + (size < carried ? carried : 0)) << size;
     }
+}
+
+TEST(Blending, RisesOverWhatIsNeededWithoutAKick) {
+  std::vector<double> need(400, 0.0);
+  for (std::size_t t = 190; t < 215; ++t) need[t] = 0.06;
+  std::vector<bool> fixed(400, false);
+  for (std::size_t t = 120; t < 150; ++t) fixed[t] = true;
+  const std::vector<double> rise = rise_smoothly(need, fixed, 120, 0.3);
+  for (std::size_t t = 120; t < 150; ++t) EXPECT_EQ(rise[t], 0);
+  for (std::size_t t = 190; t < 215; ++t) EXPECT_GT(rise[t], 0.055) << t;
+  for (std::size_t t = 1; t + 1 < 400; ++t)
+    EXPECT_LT(std::abs(rise[t - 1] - 2 * rise[t] + rise[t + 1]) * 120 * 120, 25) << t;
+  EXPECT_LT(std::abs(rise[399]), 0.001);
+  for (double value : rise_smoothly(std::vector<double>(10, 0.0), std::vector<bool>(10, false), 120, 0.3))
+    EXPECT_EQ(value, 0);
 }
 
 }  // namespace

@@ -163,6 +163,35 @@ TEST(Footskate, PutsPlantsOnAGivenFloor) {
       }
 }
 
+// The walk with straighter knees, whose swinging feet pass under the floor, on the plants of the walk itself.
+TEST(Footskate, KeepsSwingingFeetAboveTheFloor) {
+  const Motion walk = gait_motion("walk");
+  const Contacts contacts = contacts_of(walk);
+  Motion motion = walk;
+  const std::vector<Leg> legs = find_legs(walk.skeleton());
+  for (const Leg& leg : legs)
+    for (std::size_t t = 0; t < walk.frames(); ++t)
+      motion.rotation(leg.knee).set(t, slerp(0.45, walk.rotation(leg.knee)[t], Quat{}));
+  const Motion result = cleaned(motion, contacts).motion;
+  const WorldMotion before = world_motion(motion), after = world_motion(result);
+  double was = 0;
+  for (const Leg& leg : legs) {
+    for (std::size_t t = 0; t < walk.frames(); ++t) {
+      was = std::max(was, contacts.floor - point_at(before, leg.toe, *leg.toe_tip, t).y);
+      EXPECT_GT(point_at(after, leg.toe, *leg.toe_tip, t).y, contacts.floor - 0.012) << t;
+      EXPECT_GT(after.position(leg.toe)[t].y, contacts.floor - 0.005) << t;
+      EXPECT_GT(after.position(leg.ankle)[t].y, contacts.floor) << t;
+    }
+  }
+  EXPECT_GT(was, 0.04) << "it did pass under the floor";
+  EXPECT_LT(largest_slip(result, contacts), 0.001);
+  for (int joint = 0; joint < motion.joints(); ++joint) {
+    EXPECT_LT(largest_acceleration(after, joint, motion.fps()),
+              1.25 * largest_acceleration(before, joint, motion.fps()))
+        << motion.skeleton().joints[joint].name;
+  }
+}
+
 TEST(Footskate, KeepsWhereTheWalkGoes) {
   const Motion motion = drifted(gait_motion("walk"), 0.15, 0.1);
   const Motion result = cleaned(motion, contacts_of(motion)).motion;
