@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "graph/evaluate/file_store.h"
 #include "graph/file/write.h"
@@ -27,6 +29,16 @@ Json unit_param(const Program& program, const char* type, const std::string& tex
   }
 }
 
+// As a run refuses to write onto what it reads: the one that was captured would be gone.
+void refuse_onto_input(const std::vector<std::string>& read, const std::string& written) {
+  for (const std::string& path : read) {
+    std::error_code missing;
+    if (!std::filesystem::equivalent(path, written, missing) || missing) continue;
+    throw Failure(error("writes-onto-input", "'" + written + "' is a file that this reads")
+                      .hinting("name another one to write"));
+  }
+}
+
 }  // namespace
 
 int convert_command(const Program& program, const ConvertArguments& arguments) {
@@ -44,6 +56,11 @@ int convert_command(const Program& program, const ConvertArguments& arguments) {
   try {
     const MotionFile file = read_motion_file(in, read, files, work);
     encoded = encode_motion_file(out, "auto", contents_for(out, file.contents, work), write, work);
+    std::vector<std::string> inputs = file.companions;
+    inputs.push_back(in);
+    refuse_onto_input(inputs, out);
+    for (const auto& [name, bytes] : encoded.companions)
+      refuse_onto_input(inputs, (fs::path(out).parent_path() / name).string());
   } catch (const Failure& failure) {
     Diagnostic problem = failure.diagnostic();
     throw Failure(as_typed(std::move(problem), in, arguments.in));

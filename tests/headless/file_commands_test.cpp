@@ -103,5 +103,15 @@ TEST_F(FileCommands, ConvertRefusesWhatItCannotDo) {
   EXPECT_EQ(run("convert clip.bvh", "2>&1").exit, 2);
 }
 
+TEST_F(FileCommands, ConvertNeverWritesOntoWhatItReads) {
+  const std::string before = bytes_of("clip.bvh");
+  for (const char* same : {"clip.bvh", "./clip.bvh", "new/../clip.bvh"}) {
+    const Ran ran = run(std::string("convert clip.bvh ") + same + " --fps 50", "2>&1");
+    EXPECT_EQ(ran.exit, 3) << ran.output;
+    EXPECT_NE(ran.output.find("error: writes-onto-input: "), std::string::npos) << ran.output;
+    EXPECT_EQ(bytes_of("clip.bvh"), before);
+  }
+}
+
 }  // namespace
 }  // namespace kinegraph
