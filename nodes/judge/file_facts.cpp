@@ -6,6 +6,7 @@
 
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/files/acclaim_skeleton.h"
+#include "nodes/files/length_unit.h"
 #include "nodes/files/rest_frame.h"
 #include "nodes/judge/other_programs.h"
 #include "nodes/motion/character.h"
@@ -158,6 +159,20 @@ GltfInventory inventory_of(const Character& character) {
   return out;
 }
 
+// Of a figure with legs that is no person's size in the unit that its file says.
+std::optional<Diagnostic> odd_size(const FileFacts& facts) {
+  const double height = std::max(facts.motion->rest_height, facts.motion->first_height);
+  const bool odd = height > 4 || (height > 0 && height < 0.4);
+  if (facts.motion->leg_length <= 0 || !odd) return {};
+  const LengthUnit other = unit_by_height(height / facts.unit);
+  if (other.metres == facts.unit) return {};
+  return info("odd-size", fmt::format("the figure is {:.3g} m high, which is no person's size; taken as {} "
+                                      "it would be {:.3g} m",
+                                      height, to_text(other), height / facts.unit * other.metres))
+      .hinting("set unit where it is a person")
+      .at_param("unit");
+}
+
 Diagnostics of_gltf(const GltfInventory& gltf) {
   Diagnostics found;
   if (gltf.uneven_vertices)
@@ -204,6 +219,8 @@ FileFacts facts_of(const MotionFile& file, const std::string& path, FileAccess& 
     facts.points = points_facts(*points);
     facts.breaks = breaks_of(*points, work);
   }
+  if (facts.motion)
+    if (auto odd = odd_size(facts)) facts.told.push_back(std::move(*odd));
   if (facts.fps > 0) facts.seconds = static_cast<double>(facts.frames) / facts.fps;
   facts.unit_from = unit_from(file.format, facts.told);
   for (const FileContent& content : file.contents)
