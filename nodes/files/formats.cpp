@@ -111,7 +111,14 @@ MotionFile read_fbx_file(const FileToRead& file, Work& work) {
 
 std::vector<std::string> companions_of_gltf(const std::string& path, const ReadOptions&, FileAccess& files) {
   if (!files.exists(path)) return {};
-  return gltf_companions(*files.read(path), path);
+  const FileBytes bytes = files.read(path);
+  try {
+    return gltf_companions(*bytes, path);
+  } catch (const Failure& failure) {
+    Diagnostic problem = failure.diagnostic();
+    problem.file = path;
+    throw Failure(problem);
+  }
 }
 
 const Points& points_of(const FileToWrite& file) {

@@ -136,9 +136,7 @@ MotionFile read_motion_file(const std::string& path, const ReadOptions& options,
     Diagnostic problem = failure.diagnostic();
     const std::string begins = format_of_bytes(*bytes);
     if (format && !begins.empty() && begins != "json" && begins != format->key && problem.file.empty())
-      problem.hint = fmt::format(
-          "the file begins as {} does: {}", begins,
-          options.format == "auto" ? "set format, or give it that ending" : "set format to that, or to auto");
+      problem.hint = fmt::format("the file begins as {} does: set format, or give it that ending", begins);
     if (problem.file.empty()) problem.file = path;
     throw Failure(problem);
   }

@@ -163,7 +163,9 @@ GltfInventory inventory_of(const Character& character) {
 std::optional<Diagnostic> odd_size(const FileFacts& facts) {
   const double height = std::max(facts.motion->rest_height, facts.motion->first_height);
   const bool odd = height > 4 || (height > 0 && height < 0.4);
-  if (facts.motion->leg_length <= 0 || !odd) return {};
+  const bool lies = std::any_of(facts.told.begin(), facts.told.end(),
+                                [](const Diagnostic& one) { return one.code == "up-axis"; });
+  if (facts.motion->leg_length <= 0 || !odd || lies) return {};
   const LengthUnit other = unit_by_height(height / facts.unit);
   if (other.metres == facts.unit) return {};
   return info("odd-size", fmt::format("the figure is {:.3g} m high, which is no person's size; taken as {} "

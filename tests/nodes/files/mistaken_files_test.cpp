@@ -12,12 +12,12 @@ namespace {
 
 const char* const endings[] = {"bvh", "amc", "asf", "glb", "gltf", "c3d", "trc", "csv", "json", "fbx"};
 
-Diagnostic refusal(const std::string& name, const std::string& bytes, ReadOptions options = {}) {
+Diagnostic refusal(const std::string& name, const std::string& bytes) {
   PlainFiles files;
   files.made[name] = bytes;
   Alone work;
   try {
-    read_motion_file(name, options, files, work);
+    read_motion_file(name, {}, files, work);
   } catch (const Failure& failure) {
     return failure.diagnostic();
   }
@@ -60,9 +60,6 @@ TEST(MistakenFiles, WithAnothersEndingAreSaidToBeginAsTheOther) {
     EXPECT_NE(said.hint.find(std::string("begins as ") + one.is), std::string::npos)
         << one.name << ": " << said.message << " (" << said.hint << ")";
   }
-  ReadOptions set;
-  set.format = "trc";
-  EXPECT_NE(refusal("/it.bvh", bvh, set).hint.find("set format to that, or to auto"), std::string::npos);
 }
 
 TEST(MistakenFiles, ThatAreNoneOfThemAreRefusedInWordsATerminalCanShow) {
@@ -80,6 +77,20 @@ TEST(MistakenFiles, ThatAreNoneOfThemAreRefusedInWordsATerminalCanShow) {
     EXPECT_EQ((said.message + said.hint).find("kinegraph"), std::string::npos) << said.message << said.hint;
   }
   EXPECT_EQ(refusal("/it.glb", junk).code, "not-gltf");
+}
+
+// Of a glTF the evaluator asks for the files beside it before anything is read.
+TEST(MistakenFiles, AreNamedAlsoWhereTheirCompanionsAreAskedFor) {
+  for (const char* bytes : {"", "junk", "{", "glTF"}) {
+    PlainFiles files;
+    files.made["/it.glb"] = bytes;
+    try {
+      companions_of("/it.glb", {}, files);
+      ADD_FAILURE() << bytes;
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.diagnostic().file, "/it.glb") << bytes;
+    }
+  }
 }
 
 TEST(MistakenFiles, ThatEndTooSoonAreSaidToEndThere) {

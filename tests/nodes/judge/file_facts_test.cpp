@@ -206,6 +206,7 @@ TEST(FileFacts, OfAFileWithANumberThatIsNoneSayWhere) {
 TEST(FileFacts, SayWhereTheFigureLiesAlongZ) {
   KINEGRAPH_NEEDS_MOCAP();
   EXPECT_THAT(codes(told_of("fair/dab.bvh").facts), HasSubstr("up-axis"));
+  EXPECT_EQ(codes(told_of("fair/dab.bvh").facts).find("odd-size"), std::string::npos);
   EXPECT_EQ(codes(told_of("cmu/bvh_daz/49_06.bvh").facts).find("up-axis"), std::string::npos);
 }
 
