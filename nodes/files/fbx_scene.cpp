@@ -132,6 +132,9 @@ class Builder {
         moves = moves || links.back().second;
       }
       if (!moves) continue;
+      // Where Assimp gives the node itself a channel, that is its whole transform, pre-rotation and all: the
+      // links before it hold the same once more.
+      if (links.back().second) links.erase(links.begin(), links.end() - 1);
       FbxScene::Track track{static_cast<int>(node), {}};
       for (std::size_t t = 0; t < clip.frames; ++t) {
         Affine local;

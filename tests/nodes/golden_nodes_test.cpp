@@ -159,6 +159,10 @@ TEST(Golden, OpenAreSavedAsTheyStandOrUpgradedAndGiveTheBitsTheyGave) {
     EXPECT_EQ(saved, current ? text : golden::text(upgraded)) << fixture.name;
 
     const std::string digest = digest_of(document, registry);
+    if (digest.find("no-fbx") != digest.npos) {  // built without Assimp: what was remembered stays
+      now[fixture.name] = *before.find(fixture.name);
+      continue;
+    }
     EXPECT_FALSE(digest.starts_with("fails")) << fixture.name << " " << digest;
     const Json code_versions = code_versions_in(document, registry);
     now[fixture.name] = Json::Object{{"code_versions", code_versions}, {"digest", digest}};
