@@ -43,6 +43,7 @@ struct ItemRun {
   bool skipped = false;  // its files are there already
   bool begun = false;
   double started = 0, ended = 0;
+  std::string cause;  // the first thing that went wrong
   Json report;
   std::string junit;
 };
@@ -133,10 +134,10 @@ class Batch {
         try {
           run_item(run, workers);
         } catch (const Failure& failure) {
-          say(*run.item, failure.diagnostic());
+          say(run, failure.diagnostic());
           run.exit = exit_code::invalid;
         } catch (const std::exception& problem) {
-          say(*run.item, error("internal", problem.what()));
+          say(run, error("internal", problem.what()));
           run.exit = exit_code::internal;
         }
         run.ended = now();
@@ -150,8 +151,20 @@ class Batch {
     progress.finish();
   }
 
-  void say(const BatchItem& item, Diagnostic diagnostic) {
+  // Over hundreds of clips a warning that many of them have would hide the rest: told for a few, then
+  // counted.
+  void say(ItemRun& run, Diagnostic diagnostic) {
+    const BatchItem& item = *run.item;
+    const std::string part = diagnostic.port.empty() ? diagnostic.param : diagnostic.port;
+    const std::string at = part.empty() ? diagnostic.node : diagnostic.node + "." + part;
+    if (diagnostic.severity == Severity::error && run.cause.empty())
+      run.cause = at.empty() ? diagnostic.message : at + ": " + diagnostic.message;
     std::lock_guard lock(mutex_);
+    if (diagnostic.severity == Severity::warning) {
+      std::set<std::string>& warned = warned_[fmt::format("{}: {}", diagnostic.code, at)];
+      warned.insert(item.name);
+      if (warned.size() > items_warned_of) return;
+    }
     diagnostic.file = diagnostic.file.empty() ? item.name : item.name + ": " + diagnostic.file;
     program_.terminal.say(diagnostic);
   }
@@ -163,13 +176,13 @@ class Batch {
     Outcome outcome;
     outcome.problems = session.problems();
     if (!session.valid()) {
-      for (const Diagnostic& problem : session.problems()) say(*run.item, problem);
+      for (const Diagnostic& problem : session.problems()) say(run, problem);
       run.exit = exit_code::invalid;
       return;
     }
     if (const auto other = taken_by_another(*run.item, session); !other.empty()) {
-      say(*run.item, error("shared-file", fmt::format("{} writes the same file", other))
-                         .hinting("use ${item} or ${index} in the Export's path, or leave it relative"));
+      say(run, error("shared-file", fmt::format("{} writes the same file", other))
+                   .hinting("use ${item} or ${index} in the Export's path, or leave it relative"));
       run.exit = exit_code::invalid;
       return;
     }
@@ -187,10 +200,15 @@ class Batch {
         // Over hundreds of clips the cause is enough; the report has what it blocked.
         if (diagnostic.severity == Severity::info || diagnostic.code == "blocked") continue;
         if (diagnostic.node.empty()) diagnostic.node = name;
-        say(*run.item, std::move(diagnostic));
+        say(run, std::move(diagnostic));
       }
-    for (const Diagnostic& diagnostic : outcome.log.diagnostics) say(*run.item, diagnostic);
+    for (const Diagnostic& diagnostic : outcome.log.diagnostics) say(run, diagnostic);
     outcome.exit = exit_of(outcome.log, false);
+    for (const RuleRun& rule : outcome.log.rules)
+      if (!rule.passed && run.cause.empty())
+        run.cause = fmt::format(
+            "{}: {} {}", rule.node, rule.rule,
+            std::isfinite(rule.value) ? fmt::format("measured {:.6g}", rule.value) : "could not be measured");
     for (const Target& target : session.needed_by(targets).metrics)
       if (auto value = session.evaluator().value(session.plan(), target.node, target.port))
         outcome.metrics[target.node] = std::dynamic_pointer_cast<const Metrics>(value);
@@ -292,8 +310,13 @@ class Batch {
     };
     for (const ItemRun& run : runs_)
       if (const std::string state = state_of(run); state != "done" && state != "skipped")
-        program_.terminal.result(
-            fmt::format("{}  {}\n", program_.terminal.tinted(state, tint(state)), run.item->name));
+        program_.terminal.result(fmt::format("{}  {}{}\n", program_.terminal.tinted(state, tint(state)),
+                                             run.item->name, run.cause.empty() ? "" : "   " + run.cause));
+    for (const auto& [what, items] : warned_)
+      if (items.size() > items_warned_of)
+        program_.terminal.message(fmt::format("{}: {}: {} more items have it; their reports tell it all\n",
+                                              program_.terminal.tinted_message("warning", Tint::yellow), what,
+                                              items.size() - items_warned_of));
     std::string text = fmt::format("{} items", items_.size());
     if (shard_.count > 1) text += fmt::format(" of {}, shard {}/{}", all_.size(), shard_.index, shard_.count);
     text += ":";
@@ -321,6 +344,7 @@ class Batch {
         one["started"] = stamp(run.started);
         one["ended"] = stamp(run.ended);
       }
+      if (!run.cause.empty()) one["cause"] = run.cause;
       if (!run.report.is_null()) one["report"] = run.report;
       items[run.item->name] = std::move(one);
       // The suite inside, named after the item.
@@ -354,6 +378,8 @@ class Batch {
   const std::vector<BatchItem> items_;
   std::vector<ItemRun> runs_;
   StopToken* stop_ = nullptr;
+  static constexpr std::size_t items_warned_of = 3;
+  std::map<std::string, std::set<std::string>> warned_;  // what and where -> items
   std::mutex mutex_;
   std::map<std::string, std::string> taken_;  // file -> item
 };

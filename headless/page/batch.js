@@ -12,8 +12,8 @@ function draw_batch() {
     for (const [name, item] of bad) {
       const told = item.report || {}, before = rows.length;
       for (const check of told.checks || []) if (!check.passed) rows.push(make("tr", "", cell("failed", item.state), cell("", name), cell("", check.node), cell("wide", make("span", "mono", check.rule), `: measured ${number(check.value)}, limit ${number(check.limit)}`)));
-      for (const [node, one] of Object.entries(told.nodes || {})) for (const words of one.diagnostics) if (words.severity === "error") rows.push(make("tr", "", cell("failed", item.state), cell("", name), cell("", node), cell("wide", words.message, make("div", "hint", words.hint || ""))));
-      if (rows.length === before) rows.push(make("tr", "", cell("failed", item.state), cell("", name), cell("", ""), cell("wide faint", item.exit ? "exit " + item.exit : "")));
+      for (const [node, one] of Object.entries(told.nodes || {})) for (const words of one.diagnostics) if (words.severity === "error" && words.code !== "blocked") rows.push(make("tr", "", cell("failed", item.state), cell("", name), cell("", node), cell("wide", words.message, make("div", "hint", words.hint || ""))));
+      if (rows.length === before) rows.push(make("tr", "", cell("failed", item.state), cell("", name), cell("", ""), cell("wide faint", item.cause || (item.exit ? "exit " + item.exit : ""))));
     }
     table(head("", "item", "node", ""), ...rows);
   }
@@ -22,10 +22,11 @@ function draw_batch() {
   for (const [name, item] of items) for (const [node, all] of Object.entries((item.report || {}).metrics || {})) for (const [metric, value] of Object.entries(all))
     if (!metric.includes(".") && typeof value === "number") { const plot = metrics[metric] = metrics[metric] || {}; (plot[node] = plot[node] || []).push([value, name]); }
   if (Object.keys(metrics).length) {
+    const measured = [...new Set(Object.values(metrics).flatMap(plot => Object.keys(plot)))].sort();
     section("Metrics", "a dot an item; hold the pointer over one for its name");
     const plots = make("div", "plots");
     main.append(plots);
-    for (const metric of Object.keys(metrics).sort()) plots.append(make("div", "card", make("b", "", metric), strip(metrics[metric])));
+    for (const metric of Object.keys(metrics).sort()) plots.append(make("div", "card", make("b", "", metric), strip(metrics[metric], measured)));
   }
 
   section("Items");
@@ -38,16 +39,16 @@ function draw_batch() {
   }));
 }
 
-// Values of all items on one axis, a line of dots a node.
-function strip(nodes) {
-  const names = Object.keys(nodes), W = 360, row = 30, all = names.flatMap(name => nodes[name].map(pair => pair[0]));
+// Values of all items on one axis, a line of dots a node; `order`: all nodes, so that each has one colour everywhere.
+function strip(nodes, order) {
+  const names = order.filter(name => nodes[name]), W = 360, row = 30, all = names.flatMap(name => nodes[name].map(pair => pair[0]));
   let low = Math.min(0, ...all), high = Math.max(...all);
   if (!(high > low)) high = low + 1;
   const x = value => 78 + (W - 100) * (value - low) / (high - low), picture = svg("svg", { viewBox: `0 0 ${W} ${names.length * row + 26}`, width: "100%" });
   names.forEach((name, i) => {
     const y = 16 + i * row, sorted = nodes[name].map(pair => pair[0]).sort((a, b) => a - b), middle = sorted[sorted.length >> 1];
     picture.append(svg("text", { x: 0, y: y + 4, class: "small" }, name.length > 11 ? name.slice(0, 10) + "…" : name), svg("line", { x1: 78, x2: W - 22, y1: y, y2: y, stroke: "var(--line)" }));
-    nodes[name].forEach(([value, item], k) => { const dot = svg("circle", { cx: x(value), cy: y + (k * 7919 % 11 - 5), r: 3.2, fill: `var(${i % 2 ? "--accent" : "--after"})`, opacity: 0.65 }); dot.append(svg("title", {}, `${item}: ${number(value)}`)); picture.append(dot); });
+    nodes[name].forEach(([value, item], k) => { const dot = svg("circle", { cx: x(value), cy: y + (k * 7919 % 11 - 5), r: 3.2, fill: `var(${order.indexOf(name) % 2 ? "--accent" : "--after"})`, opacity: 0.65 }); dot.append(svg("title", {}, `${item}: ${number(value)}`)); picture.append(dot); });
     picture.append(svg("line", { x1: x(middle), x2: x(middle), y1: y - 10, y2: y + 10, stroke: "var(--ink)", "stroke-width": 1.5 }));
   });
   const base = names.length * row + 18;

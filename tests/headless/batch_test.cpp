@@ -63,7 +63,7 @@ TEST_F(BatchTest, AFailureDoesNotStopTheRest) {
   write("clips/b.bvh", "HIERARCHY nonsense");
   Ran ran = batch({"--report", "report.json", "--junit", "junit.xml"});
   EXPECT_EQ(ran.exit, 1);
-  EXPECT_THAT(ran.out, HasSubstr("failed  b\n"));
+  EXPECT_THAT(ran.out, HasSubstr("failed  b   clip: "));
   EXPECT_TRUE(exists("done/a/smooth.bvh"));
   EXPECT_TRUE(exists("done/more/c/smooth.bvh"));
   EXPECT_FALSE(exists("done/.kinegraph/b.json"));
@@ -77,6 +77,27 @@ TEST_F(BatchTest, OfAFailedItemTheCauseIsToldAndNotAllThatItBlocked) {
   EXPECT_THAT(ran.err, HasSubstr("b: clips/b.bvh:"));
   EXPECT_THAT(ran.err, Not(HasSubstr("blocked")));
   EXPECT_EQ(read_json("report.json")["items"]["b"]["report"]["nodes"]["smooth"]["state"], "blocked");
+}
+
+TEST_F(BatchTest, AWarningOfManyItemsIsToldForThreeAndCounted) {
+  write("g.kg.json", graph(R"("walk": {"type": "Gait", "params": {"seconds": 0.5}},
+      "m": {"type": "Metrics", "inputs": {"motion": "walk.motion"}},
+      "judge": {"type": "Check", "params": {"rules": ["skat < 1"]}, "inputs": {"metrics": "m.metrics"}})"));
+  write("table.csv", "walk.seed\n1\n2\n3\n4\n5\n");
+  const Ran ran = run({"batch", "g.kg.json", "--table", "table.csv", "--out", "done", "--report", "r.json"});
+  EXPECT_EQ(ran.exit, 4) << ran.err;
+  std::size_t told = 0;
+  for (std::size_t at = ran.err.find("unknown-metric"); at != ran.err.npos;
+       at = ran.err.find("unknown-metric", at + 1))
+    ++told;
+  EXPECT_EQ(told, 4u) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("warning: unknown-metric: judge.rules: 2 more items have it"));
+  EXPECT_THAT(ran.out, HasSubstr("judge: skat < 1 could not be measured"));
+  EXPECT_EQ(read_json("r.json")["items"].size(), 5u);
+  for (const auto& item : read_json("r.json")["items"]) {
+    EXPECT_EQ(item["report"]["nodes"]["judge"]["diagnostics"].size(), 1u);
+    EXPECT_EQ(item["cause"], "judge: skat < 1 could not be measured");
+  }
 }
 
 TEST_F(BatchTest, ResumeSkipsWhatStillAgrees) {
