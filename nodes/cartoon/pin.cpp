@@ -24,6 +24,8 @@ namespace {
 constexpr std::size_t most_goals =
     8;  // joints of one chain that are pinned: every set of them has its own curve
 
+constexpr double longest_link = 3;  // of its rest length; beyond it a pin is told of
+
 // Legs of sub-joints, bent at rest, are up to 8.5 % longer.
 constexpr double same_legs = 0.1;
 
@@ -133,7 +135,7 @@ std::map<int, std::vector<Hold>> holds_of_pins(const Motion& motion, const World
                         .hinting(suggestion(pinned.joint, names)));
     }
     if (pinned.start >= pinned.end || pinned.end > motion.frames())
-      throw Failure(error("bad-range", fmt::format("[{}, {}) holds no frames of the motion's {}",
+      throw Failure(error("bad-range", fmt::format("[{}, {}) isn't within the motion, which has {} frames",
                                                    pinned.start, pinned.end, motion.frames()))
                         .at_param(param)
                         .hinting("a range is [start, end) within the motion"));
@@ -319,6 +321,43 @@ void lift(const Motion& motion, const Contacts& contacts, const std::map<int, st
   }
 }
 
+// Tells of the link that pins have stretched most, where that is beyond reason.
+void warn_of_stretch(const Skeleton& skeleton, const std::map<int, std::vector<Hold>>& holds,
+                     const std::map<int, PinnedChain>& chains, const WorldMotion& before,
+                     const WorldMotion& after, Work& work) {
+  double most = longest_link;
+  int joint = -1;
+  std::size_t frame = 0;
+  std::string param;
+  for (const auto& [first, chain] : chains) {
+    const std::string& pinned_by = holds.at(chain.joints[chain.goals.back().first]).front().param;
+    if (pinned_by.empty()) continue;
+    for (std::size_t i = 1; i < chain.joints.size(); ++i) {
+      const int j = chain.joints[i], parent = chain.joints[i - 1];
+      const double rest = skeleton.link_length(j) * skeleton.above_scale;
+      if (!(rest > 0)) continue;
+      const auto length = [&](const WorldMotion& world, std::size_t t) {
+        return norm(world.position(j)[t] - world.position(parent)[t]);
+      };
+      for (std::size_t t = 0; t < after.frames(); ++t)
+        if (const double now = length(after, t); now > most * rest && now > 1.01 * length(before, t)) {
+          most = now / rest;
+          joint = j;
+          frame = t;
+          param = pinned_by;
+        }
+    }
+  }
+  if (joint >= 0)
+    work.report(
+        warning("stretched-link",
+                fmt::format("the link to the joint has {:.3g} times its length, to reach the pin", most))
+            .at_param(param)
+            .at_joint(skeleton.joints[joint].name)
+            .at_frame(static_cast<std::int64_t>(frame))
+            .hinting("bring the position nearer to where the joint is"));
+}
+
 }  // namespace
 
 Motion pin(const Motion& motion, const PinParams& params, const Contacts* contacts, Work& work) {
@@ -353,6 +392,7 @@ Motion pin(const Motion& motion, const PinParams& params, const Contacts* contac
     bend(skeleton, chain, moved, turn_limits(motion.fps()), work);
   }
   if (contacts) lift(motion, *contacts, holds, chains, moved, work);
+  warn_of_stretch(skeleton, holds, chains, world, moved, work);
   return motion_from_world(motion.shared_skeleton(), motion.shared_source(), motion.fps(),
                            motion.translating(), moved, work);
 }

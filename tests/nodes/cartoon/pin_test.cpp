@@ -507,6 +507,23 @@ TEST(Pin, ChangesNothingWithoutPins) {
   EXPECT_LT(difference(pin(walk, {}, nullptr, work), walk).turn, 1e-15);
 }
 
+TEST(PinNode, WarnsOfAPinFarBeyondReach) {
+  const Motion walk = gait("walk", 1);
+  const auto said = [&](double height) {
+    const Json position(Json::Array{Json(0), Json(height), Json(0)});
+    const Json pins(Json::Array{Json(Json::Object{{"joint", Json("LeftHand")},
+                                                  {"range", Json(Json::Array{Json(40), Json(60)})},
+                                                  {"position", position}})});
+    NodeInMemory node(pin_node());
+    node.link("motion", walk).set("pins", pins).run();
+    std::string all;
+    for (const Diagnostic& d : node.reported()) all += d.code + " " + d.param + " " + d.joint;
+    return all;
+  };
+  EXPECT_EQ(said(1.7), "");
+  EXPECT_THAT(said(8), testing::StartsWith("stretched-link pins[0] Left"));
+}
+
 TEST(PinNode, NamesWhatIsWrongWithAPin) {
   const Motion walk = gait("walk", 1);
   const auto refusal = [&](std::string joint, double start, double end) {
