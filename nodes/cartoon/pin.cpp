@@ -9,10 +9,9 @@
 #include <utility>
 
 #include "nodes/cartoon/above_ground.h"
-#include "nodes/cartoon/chain_bend.h"
 #include "nodes/cartoon/contact_joints.h"
 #include "nodes/cartoon/groups.h"
-#include "nodes/cartoon/link_turns.h"
+#include "nodes/cartoon/pinned_chain.h"
 #include "nodes/cartoon/planted_limbs.h"
 #include "nodes/cartoon/world_to_local.h"
 #include "nodes/motion/kinematics.h"
@@ -28,12 +27,6 @@ constexpr double longest_link = 3;  // of its rest length; beyond it a pin is to
 
 // Legs of sub-joints, bent at rest, are up to 8.5 % longer.
 constexpr double same_legs = 0.1;
-
-// Where a joint shall be, and how much of the way it goes there, at every frame.
-struct Goal {
-  std::vector<double> part;
-  std::vector<Vec3> target;
-};
 
 // A stretch of time in which a joint has one target.
 struct Hold {
@@ -92,33 +85,6 @@ Goal goal_of(std::vector<Hold> holds, const Motion& motion, const std::string& j
   return goal;
 }
 
-// The joints at which chains end: where joints that aren't pruned part, or ways to pinned joints do.
-std::vector<bool> branches(const Skeleton& skeleton, const std::vector<bool>& pruned,
-                           const std::set<int>& pinned) {
-  std::vector<int> children(skeleton.joints.size()), pinned_ways(skeleton.joints.size());
-  std::vector<bool> leads(skeleton.joints.size());
-  for (int j = skeleton.size() - 1; j > 0; --j) {
-    const int parent = skeleton.joints[j].parent;
-    leads[j] = leads[j] || pinned.contains(j);
-    if (!pruned[j]) ++children[parent];
-    if (!leads[j]) continue;
-    leads[parent] = true;
-    ++pinned_ways[parent];
-  }
-  std::vector<bool> out;
-  for (int j = 0; j < skeleton.size(); ++j) out.push_back(children[j] > 1 || pinned_ways[j] > 1);
-  return out;
-}
-
-// From the joint below the next branching down to `joint`.
-std::vector<int> chain_to(const Skeleton& skeleton, int joint, const std::vector<bool>& branching) {
-  std::vector<int> chain{joint};
-  for (int p = skeleton.joints[joint].parent; p >= 0 && !branching[p]; p = skeleton.joints[p].parent)
-    chain.push_back(p);
-  std::reverse(chain.begin(), chain.end());
-  return chain;
-}
-
 std::map<int, std::vector<Hold>> holds_of_pins(const Motion& motion, const WorldMotion& world,
                                                const PinParams& params) {
   const Skeleton& skeleton = motion.skeleton();
@@ -163,7 +129,7 @@ void add_plants(const Motion& motion, const WorldMotion& world, const Contacts& 
     const int joint = joints[i];
     const std::vector<Run> runs = runs_of(point.planted);
     if (joint < 0 || runs.empty()) continue;
-    if (chain_to(skeleton, joint, branches(skeleton, pruned, {joint})).size() < 2) {
+    if (chain_to(skeleton, joint, chain_ends(skeleton, pruned, {joint})).size() < 2) {
       work.report(warning("no-chain", fmt::format("no chain of joints leads to {}, so its planted point "
                                                   "isn't held",
                                                   point.joint_name))
@@ -195,7 +161,7 @@ void add_plants(const Motion& motion, const WorldMotion& world, const Contacts& 
       error("no-chain", fmt::format("no chain of joints leads to {}, so nothing could bend", name))
           .hinting("pin a joint further down a limb");
   const int parent = skeleton.joints[joint].parent;
-  if (chain_to(skeleton, joint, branches(skeleton, small_ends(skeleton), {joint})).size() > 1)
+  if (chain_to(skeleton, joint, chain_ends(skeleton, small_ends(skeleton), {joint})).size() > 1)
     for (int other : pinned) {
       if (other == parent || !skeleton.is_below(other, parent) || skeleton.is_below(other, joint)) continue;
       diagnostic = error("pins-apart",
@@ -209,80 +175,6 @@ void add_plants(const Motion& motion, const WorldMotion& world, const Contacts& 
   diagnostic.param = hold.param;
   if (hold.param.empty()) diagnostic.port = "contacts";
   throw Failure(diagnostic);
-}
-
-// One chain, its pinned joints, and what lies below it.
-struct PinnedChain {
-  std::vector<int> joints;
-  std::vector<std::pair<std::size_t, Goal>> goals;  // index into joints
-};
-
-// Bends one chain of `moved`, in which the chains above it are bent already.
-void bend(const Skeleton& skeleton, const PinnedChain& chain, WorldMotion& moved, const TurnLimits& limits,
-          Work& work) {
-  const WorldMotion world = moved;
-  const std::size_t frames = world.frames();
-  // What hangs on the chain rides with its joint.
-  std::vector<std::pair<int, std::size_t>> riders;
-  for (int j = chain.joints.front(); j < skeleton.size(); ++j) {
-    if (!skeleton.is_below(j, chain.joints.front())) continue;
-    int on = j;
-    auto at = std::find(chain.joints.begin(), chain.joints.end(), on);
-    while (at == chain.joints.end()) {
-      on = skeleton.joints[on].parent;
-      at = std::find(chain.joints.begin(), chain.joints.end(), on);
-    }
-    riders.emplace_back(j, static_cast<std::size_t>(at - chain.joints.begin()));
-  }
-  std::vector<double> places{0};
-  for (std::size_t i = 1; i < chain.joints.size(); ++i)
-    places.push_back(places.back() + std::max(skeleton.link_length(chain.joints[i]), 1e-9));
-  // Every set of pins that may hold at once has its curve; between them the parts blend.
-  const std::size_t sets = std::size_t{1} << chain.goals.size();
-  std::vector<std::vector<std::vector<double>>> curves(sets);
-  for (std::size_t set = 1; set < sets; ++set) {
-    std::vector<double> given;
-    for (std::size_t g = 0; g < chain.goals.size(); ++g)
-      if (set >> g & 1) given.push_back(places[chain.goals[g].first]);
-    curves[set] = bend_weights(given, places);
-  }
-  for (std::size_t t = 0; t < frames; ++t) {
-    if (t % 256 == 0) work.check();
-    std::vector<Vec3> shift(chain.joints.size()), now;
-    for (std::size_t set = 1; set < sets; ++set) {
-      double part = 1;
-      for (std::size_t g = 0; g < chain.goals.size(); ++g)
-        part *= set >> g & 1 ? chain.goals[g].second.part[t] : 1 - chain.goals[g].second.part[t];
-      if (part == 0) continue;
-      if (now.empty())
-        for (int joint : chain.joints) now.push_back(world.position(joint)[t]);
-      std::vector<std::size_t> given;
-      std::vector<Vec3> targets;
-      for (std::size_t g = 0; g < chain.goals.size(); ++g) {
-        if (!(set >> g & 1)) continue;
-        given.push_back(chain.goals[g].first);
-        targets.push_back(chain.goals[g].second.target[t]);
-      }
-      const std::vector<Vec3> bent = bent_chain(now, places, curves[set], given, targets);
-      for (std::size_t i = 1; i < shift.size(); ++i) shift[i] += part * (bent[i] - now[i]);
-    }
-    for (const auto& [j, on] : riders) moved.position(j).set(t, world.position(j)[t] + shift[on]);
-  }
-  const RestPose rest = rest_pose(skeleton);
-  for (std::size_t i = 0; i + 1 < chain.joints.size(); ++i) {
-    const int j = chain.joints[i], next = chain.joints[i + 1];
-    aim_link(rest_link(rest, j, j, next), world.position(j), world.position(next),
-             std::as_const(moved).position(j), std::as_const(moved).position(next), world.orientation(j),
-             limits, moved.orientation(j));
-    // A pinned joint keeps its orientation, also where the chain goes on to another.
-    for (const auto& [index, goal] : chain.goals) {
-      if (index != i) continue;
-      const auto turned = moved.orientation(j);
-      for (std::size_t t = 0; t < frames; ++t)
-        turned.set(t, normalized(slerp(goal.part[t], turned[t], world.orientation(j)[t])));
-      make_continuous(turned.x, turned.y, turned.z, turned.w);
-    }
-  }
 }
 
 // Lifts what planted chains let sink under the ground between their plants; pins say for themselves where
@@ -369,11 +261,11 @@ Motion pin(const Motion& motion, const PinParams& params, const Contacts* contac
   if (holds.empty()) return motion;
   std::set<int> pinned;
   for (const auto& [joint, list] : holds) pinned.insert(joint);
-  const std::vector<bool> branching = branches(skeleton, small_ends(skeleton), pinned);
+  const std::vector<bool> ends = chain_ends(skeleton, small_ends(skeleton), pinned);
   // By their first joint: those nearer to the root come first, and what they move is where the others start.
   std::map<int, PinnedChain> chains;
   for (const auto& [joint, list] : holds) {
-    const std::vector<int> chain = chain_to(skeleton, joint, branching);
+    const std::vector<int> chain = chain_to(skeleton, joint, ends);
     if (chain.size() < 2) refuse_short_chain(skeleton, joint, list.front(), pinned);
     PinnedChain& known = chains[chain.front()];
     if (chain.size() > known.joints.size()) known.joints = chain;
