@@ -22,17 +22,34 @@ std::string absolute_path(const std::string& path) {
 
 namespace {
 
+// A hint for a path at which nothing is: the name beside it that was meant, if one is near.
+std::string what_is_there(const std::string& path) {
+  const fs::path file = absolute_path(path);
+  std::error_code failed;
+  std::vector<std::string> names;
+  for (fs::directory_iterator entry(file.parent_path(), failed), end; !failed && entry != end;
+       entry.increment(failed))
+    names.push_back(entry->path().filename().string());
+  std::sort(names.begin(), names.end());
+  const std::string near = nearest(file.filename().string(), names);
+  return near.empty() ? "check the path: it starts at the current folder"
+                      : fmt::format("did you mean \"{}\"?", near);
+}
+
 // The bytes of a regular file, or an error that says why there are none.
 std::string bytes_of(const std::string& path, Diagnostics& problems) {
   std::error_code problem;
   auto status = fs::status(path, problem);
   if (!fs::exists(status)) {
-    problems.push_back(error("missing-file", fmt::format("'{}' does not exist", path)).in_file(path));
+    problems.push_back(error("missing-file", fmt::format("'{}' does not exist", path))
+                           .in_file(path)
+                           .hinting(what_is_there(path)));
     return {};
   }
   if (!fs::is_regular_file(status)) {
-    problems.push_back(
-        error("not-a-regular-file", fmt::format("'{}' is not a regular file", path)).in_file(path));
+    problems.push_back(error("not-a-regular-file", fmt::format("'{}' is not a regular file", path))
+                           .in_file(path)
+                           .hinting("name a graph file, *.kg.json"));
     return {};
   }
   errno = 0;
@@ -74,6 +91,7 @@ Diagnostics all_problems(const Opened& opened, const Registry& registry, const V
     });
     if (!told) all.push_back(std::move(problem));
   }
+  drop_consequences(all);
   std::stable_sort(all.begin(), all.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
   });

@@ -107,7 +107,7 @@ class Explainer {
     const auto meant = respelled(token);
     return told(
         error("bad-number", fmt::format("{} isn't a number as JSON spells it", shortened(std::string(token))))
-            .hinting(meant && *meant != token ? fmt::format("such as {}", shortened(*meant))
+            .hinting(meant && *meant != token ? fmt::format("write {}", shortened(*meant))
                                               : "such as 0.5, -3 or 1e-6"),
         meant ? instead(token.size(), *meant) : unread(token.size()));
   }

@@ -62,7 +62,7 @@ const Mistake mistakes[] = {
     {"TooLargeANumber", nodes(R"("a": {"type": "Load", "params": {"fps": 1e999}})"), "not-finite", 2, "1e999",
      "", "", "1.8e308"},
     {"LeadingZero", nodes(R"("a": {"type": "Load", "params": {"fps": 012}})"), "bad-number", 2, "012", "", "",
-     "such as 12"},
+     "write 12"},
     {"NoDigitBeforeThePoint", nodes(R"("a": {"type": "Load", "params": {"fps": .5}})"), "bad-number", 2, ".5",
      "", "", "0.5"},
     {"Unquoted", nodes("a: {}"), "syntax", 2, "a", "", "", "a name in double quotes"},

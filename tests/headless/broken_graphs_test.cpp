@@ -90,7 +90,7 @@ const Mistake mistakes[] = {
     // Text.
     {"Empty", "", 1, "error: syntax: ", "kinegraph"},
     {"CutOff", "{\"format\": \"kinegraph\",\n\"schema\": 1", 2, "error: syntax: ", "missing"},
-    {"NotJson", "digraph {}\n", 1, "error: syntax: ", "belongs"},
+    {"NotJson", "digraph {}\n", 1, "error: not-a-graph: ", "info FILE"},
     {"TrailingComma", "{\"format\": \"kinegraph\",\n\"schema\": 1,\n}", 2,
      "error: trailing-comma: ", "remove"},
     {"Comment", file("// legs\n\"n\": {\"type\": \"Gait\"}"), 4, "error: comment: ", "note"},
