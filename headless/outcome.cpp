@@ -209,7 +209,7 @@ int write_report(const Program& program, const std::string& path, const std::str
   try {
     std::error_code told_by_writing;
     std::filesystem::create_directories(std::filesystem::path(whole).parent_path(), told_by_writing);
-    write_file_atomically(whole, text);
+    write_file_atomically(whole, text, Lasting::no);
     return exit_code::done;
   } catch (const Failure& failure) {
     program.terminal.say(failure.diagnostic());

@@ -43,6 +43,7 @@ Session::Session(const Program& program, const RunArguments& arguments, Opened o
   options_.memory = size_option("--memory", arguments.memory, machine_memory() / 2);
   std::uint64_t cache_limit = size_option("--cache-limit", arguments.cache_limit, 0);
   options_.timeout = arguments.timeout;
+  options_.since = arguments.started;
   options_.keep_going = arguments.keep_going;
   options_.dry_run = arguments.dry_run;
   options_.allow_outside = arguments.allow_outside;

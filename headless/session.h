@@ -1,6 +1,7 @@
 // One graph opened with run's options: read, validated, planned, with its caches and its evaluator. Every
 // command that computes something goes through it.
 #pragma once
+#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -38,6 +39,7 @@ struct RunArguments {
   bool no_cache = false, keep_going = false, dry_run = false, allow_outside = false, sandbox = false;
   int threads = 0;
   double timeout = 0;
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();  // its time counts from here
   std::string report, junit, html;
   std::string item;  // of a batch: see PlanOptions
   std::string progress = "auto";

@@ -206,11 +206,15 @@ FileStore::Content FileStore::read_hashed(const std::string& path, const Reading
   const auto size = static_cast<std::size_t>(info.st_size);
   if (reading.reserve) held->reserved = reading.reserve(size);
   held->bytes.reserve(size);
+  Digester digester;
   std::string buffer(std::clamp<std::size_t>(size, 4096, piece), '\0');
   State::read_all(file.number, shown, reading.check, buffer.data(), buffer.size(),
-                  [&](std::string_view got) { held->bytes += got; });
+                  [&](std::string_view got) {
+                    held->bytes += got;
+                    digester.add(got);
+                  });
   Content content;
-  content.digest = digest(held->bytes);
+  content.digest = digester.finish();
   content.bytes = FileBytes(held, &held->bytes);
   state_->remember(file.number, info, content.digest);
   return content;

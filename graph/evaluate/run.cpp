@@ -24,7 +24,7 @@ class PlanRun {
         options_(options),
         callbacks_(callbacks),
         stop_(stop),
-        halt_(stop, options.timeout),
+        halt_(stop, options.timeout, options.since),
         keys_(plan, world.registry, world.files, world.cpu_path, [this] { halt_.check(); }),
         rules_(options) {
     log_.threads_allowed = options.threads > 0 ? options.threads : tbb::info::default_concurrency();

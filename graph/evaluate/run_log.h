@@ -1,5 +1,6 @@
 // What is asked of a run, and what it tells of itself afterwards.
 #pragma once
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -15,13 +16,14 @@ struct Target {
 };
 
 struct RunOptions {
-  int threads = 0;             // 0 = as many as the machine has
-  std::uint64_t memory = 0;    // bytes for values and working memory together; 0 = half of the machine's
-  double timeout = 0;          // seconds; 0 = none
-  bool keep_going = false;     // what does not depend on a failure still runs
-  bool dry_run = false;        // compute no values, write nothing: tell hit or run
-  bool allow_outside = false;  // writes outside `out`
-  std::string out;             // absolute folder that writes must stay in
+  int threads = 0;           // 0 = as many as the machine has
+  std::uint64_t memory = 0;  // bytes for values and working memory together; 0 = half of the machine's
+  double timeout = 0;        // seconds from `since`; 0 = none
+  std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
+  bool keep_going = false;                   // what does not depend on a failure still runs
+  bool dry_run = false;                      // compute no values, write nothing: tell hit or run
+  bool allow_outside = false;                // writes outside `out`
+  std::string out;                           // absolute folder that writes must stay in
   std::vector<std::string> outside_allowed;  // absolute paths given by --set: may lie outside
 };
 

@@ -1,9 +1,7 @@
 // Asking a run to stop: from outside, by the clock, or because something in it failed.
 #pragma once
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
+#include <chrono>
 
 namespace kinegraph {
 
@@ -17,26 +15,24 @@ class StopToken {
   std::atomic<bool> stopped_{false};
 };
 
-// One run's view of it: the token, if there is one, and the time-out. Asking is two atomic loads.
+// One run's view of it: the token, if there is one, and the time-out. Asking is two atomic loads, and a look
+// at the clock where there is a time-out: a thread that sleeps until then wakes too late on a busy machine.
 class Halt {
  public:
-  // `timeout` in seconds, 0 = none.
-  Halt(const StopToken* token, double timeout);
-  ~Halt();
+  // `timeout` in seconds from `since`, 0 = none.
+  Halt(const StopToken* token, double timeout,
+       std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now());
   Halt(const Halt&) = delete;
   Halt& operator=(const Halt&) = delete;
 
-  bool asked() const { return late_.load(std::memory_order_relaxed) || (token_ && token_->stopped()); }
-  bool late() const { return late_.load(std::memory_order_relaxed); }
-  void check() const;  // throws Cancelled
+  bool asked() const;
+  bool late() const { return late_.load(std::memory_order_relaxed); }  // as of when it was last asked
+  void check() const;                                                  // throws Cancelled
 
  private:
   const StopToken* token_;
-  std::atomic<bool> late_{false};
-  std::mutex mutex_;
-  std::condition_variable finished_;
-  bool over_ = false;
-  std::thread watch_;
+  std::chrono::steady_clock::time_point deadline_ = std::chrono::steady_clock::time_point::max();
+  mutable std::atomic<bool> late_{false};
 };
 
 }  // namespace kinegraph

@@ -57,14 +57,14 @@ class Aside {
     if (::stat(old.c_str(), &status) == 0 && ::fchmod(descriptor_, status.st_mode & 07777) != 0)
       fail(shown_, "keeping its permissions", errno);
   }
-  void write(std::string_view bytes) {
+  void write(std::string_view bytes, Lasting lasting) {
     while (!bytes.empty()) {
       const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
       if (count < 0 && errno == EINTR) continue;
       if (count < 0) fail(shown_, "writing", errno);
       bytes.remove_prefix(static_cast<std::size_t>(count));
     }
-    if (::fsync(descriptor_) != 0) fail(shown_, "syncing", errno);
+    if (lasting == Lasting::yes && ::fsync(descriptor_) != 0) fail(shown_, "syncing", errno);
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
     if (closed != 0) fail(shown_, "closing", errno);
@@ -92,16 +92,16 @@ void sync_folder(const fs::path& folder) {
 
 }  // namespace
 
-void write_file_atomically(const std::string& path, std::string_view bytes) {
+void write_file_atomically(const std::string& path, std::string_view bytes, Lasting lasting) {
   const fs::path target = link_followed(path);
   std::error_code ignored;
   if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored))
     throw Failure(error("cannot-write", fmt::format("{} is not a regular file", path)));
   Aside aside(path, target);
   aside.keep_permissions_of(target);
-  aside.write(bytes);
+  aside.write(bytes, lasting);
   aside.rename_to(target);
-  sync_folder(target.parent_path());
+  if (lasting == Lasting::yes) sync_folder(target.parent_path());
 }
 
 }  // namespace kinegraph

@@ -188,6 +188,14 @@ TEST_F(EvaluateFailures, ATimeOutReachesIntoNodes) {
   EXPECT_EQ(state(log, "n"), done);
 }
 
+// What went before the run, such as opening the graph, is part of the user's time.
+TEST_F(EvaluateFailures, TheTimeoutCountsFromWhereTheCommandBegan) {
+  const auto now = std::chrono::steady_clock::now();
+  EXPECT_TRUE(Halt(nullptr, 5, now - std::chrono::seconds(6)).asked());
+  EXPECT_FALSE(Halt(nullptr, 500, now - std::chrono::seconds(6)).asked());
+  EXPECT_FALSE(Halt(nullptr, 0, now - std::chrono::seconds(6)).asked());
+}
+
 // One question to Work is all that lies between a stop and its effect: a node that asks every few
 // milliseconds stops within 50.
 TEST_F(EvaluateFailures, TheNextCheckAfterAStopThrows) {
