@@ -77,7 +77,7 @@ class Batch {
     int code = exit_code::done;
     // What is wrong with the graph or the command line is told once, before anything runs.
     if (!all_.empty()) {
-      Session first(program_, arguments_of(all_.front(), 1), opened());
+      Session first = session_of(all_.front(), 1);
       program_.terminal.say(first.problems());
       if (!first.valid()) return exit_code::invalid;
       if (targets_of(first).empty())
@@ -102,6 +102,7 @@ class Batch {
 
   RunArguments arguments_of(const BatchItem& item, int workers) const {
     RunArguments arguments = arguments_.run;
+    arguments.started = std::chrono::steady_clock::now();
     arguments.out = out_;
     arguments.item = item.name;
     for (const std::string& set : item.sets) arguments.sets.push_back(set);
@@ -109,6 +110,27 @@ class Batch {
     arguments.vars.push_back(fmt::format("index={}", item.index));
     arguments.threads = std::max(1, threads() / workers);
     return arguments;
+  }
+  // What is wrong with an item's values is told of the table's line, or of --each, not of a --set that nobody
+  // wrote.
+  Session session_of(const BatchItem& item, int workers) const {
+    try {
+      return Session(program_, arguments_of(item, workers), opened());
+    } catch (const UsageError& wrong) {
+      Diagnostic problem = wrong.diagnostic();
+      const auto is_named = [&](const std::string& set) {
+        const std::string name = set.substr(0, set.find('='));
+        return problem.node + "." + problem.param == name || problem.message.find(name) != std::string::npos;
+      };
+      if (std::none_of(item.sets.begin(), item.sets.end(), is_named)) throw;
+      if (problem.message.starts_with("--set "))
+        problem.message.replace(0, 6, item.table.empty() ? "--each " : "column ");
+      if (!item.table.empty()) {
+        problem.file = item.table;
+        problem.place = {item.line, 1};
+      }
+      throw UsageError(std::move(problem));
+    }
   }
   int threads() const {
     return arguments_.run.threads > 0 ? arguments_.run.threads
@@ -170,7 +192,7 @@ class Batch {
   }
 
   void run_item(ItemRun& run, int workers) {
-    Session session(program_, arguments_of(*run.item, workers), opened());
+    Session session = session_of(*run.item, workers);
     session.options().memory /= static_cast<std::uint64_t>(workers);
     Progress quiet(Progress::Form::none, program_.terminal);
     Outcome outcome;
@@ -286,7 +308,7 @@ class Batch {
 
   int dry_run() {
     for (const BatchItem& item : items_) {
-      Session session(program_, arguments_of(item, 1), opened());
+      Session session = session_of(item, 1);
       program_.terminal.result(fmt::format("item  {}\n", item.name));
       for (const std::string& set : item.sets) program_.terminal.result(fmt::format("      {}\n", set));
       for (const auto& use : session.files_written())
@@ -390,13 +412,18 @@ int merge_batch_reports(const Program& program, const std::vector<std::string>& 
   Json::Object merged, items;
   for (const std::string& file : files) {
     std::ifstream in(file, std::ios::binary);
+    if (!in.is_open() || fs::is_directory(file))
+      throw Failure(Diagnostic(error("missing-file", fmt::format("'{}' can't be read", file))
+                                   .hinting("is it there? --merge-reports takes what --report wrote")));
     Diagnostics problems;
     const Json report = parse_json(std::string(std::istreambuf_iterator<char>(in), {}), file, problems);
     const Json* format = report.find("format");
     const Json* of_file = report.find("items");
     if (has_error(problems) || !format || !(*format == Json("kinegraph-batch-report")) || !of_file ||
         !of_file->is_object())
-      throw Failure(error("not-a-report", fmt::format("'{}' is no report of a batch", file)).in_file(file));
+      throw Failure(error("not-a-report", fmt::format("'{}' is no report of a batch", file))
+                        .in_file(file)
+                        .hinting("--merge-reports takes what a batch's --report wrote"));
     const Json::Object& one = report.object();
     const auto number = [](const Json::Object& object, const char* key, double otherwise) {
       const auto found = object.find(key);

@@ -69,6 +69,7 @@ struct Entry {
   std::string name;
   std::vector<std::string> sets;
   std::uint64_t bytes = 0;
+  int line = 0;  // of the table
 };
 
 std::uint64_t size_of(const std::string& path) {
@@ -92,21 +93,30 @@ std::vector<Entry> places_of_glob(const std::string& text) {
   if (places.empty())
     throw UsageError(
         Diagnostic(error("no-match", fmt::format("--each {}: no file matches", text))
-                       .hinting("the pattern starts from the current folder; quote it from the shell")));
+                       .hinting("the pattern starts from the current folder; quote it from the shell; values "
+                                "that are no files come from a --table")));
   return places;
 }
 
+struct Row {
+  std::vector<std::string> fields = {""};
+  int line = 1;
+};
+
 // RFC 4180: fields between commas, in quotes where they hold commas, quotes or line ends.
-std::vector<std::vector<std::string>> rows_of(const std::string& text) {
-  std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> row(1);
+std::vector<Row> rows_of(const std::string& text) {
+  std::vector<Row> rows;
+  Row whole;
+  std::vector<std::string>& row = whole.fields;
   bool quoted = false;
+  int line = 1;
   const auto end_row = [&] {
-    if (row.size() > 1 || !row[0].empty()) rows.push_back(row);
-    row.assign(1, "");
+    if (row.size() > 1 || !row[0].empty()) rows.push_back(whole);
+    whole = Row{.line = line};
   };
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
+    line += c == '\n';
     if (quoted) {
       if (c != '"')
         row.back() += c;
@@ -130,22 +140,29 @@ std::vector<std::vector<std::string>> rows_of(const std::string& text) {
 
 std::vector<Entry> places_of_table(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in.is_open())
-    throw UsageError(error("missing-file", fmt::format("the table '{}' can't be read", file)));
+  if (!in.is_open() || fs::is_directory(file))
+    throw UsageError(Diagnostic(error("missing-file", fmt::format("the table '{}' can't be read", file))
+                                    .hinting("is it there? its path starts from the current folder")));
   std::string text{std::istreambuf_iterator<char>(in), {}};
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   const auto rows = rows_of(text);
   if (rows.size() < 2)
-    throw UsageError(error("empty-table", fmt::format("the table '{}' has no rows", file)));
-  const auto& header = rows.front();
+    throw UsageError(
+        Diagnostic(error("empty-table", fmt::format("the table '{}' has no rows", file))
+                       .hinting("a header that names NODE.PARAM in each column, then a row for each item")));
+  const auto& header = rows.front().fields;
   std::vector<Entry> places;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (rows[i].size() != header.size())
-      throw UsageError(error("bad-table", fmt::format("{}: row {} has {} fields, the header {}", file, i + 1,
-                                                      rows[i].size(), header.size())));
+    const std::vector<std::string>& fields = rows[i].fields;
+    if (fields.size() != header.size())
+      throw UsageError(Diagnostic(error("bad-table", fmt::format("this row has {} fields, the header {}",
+                                                                 fields.size(), header.size()))
+                                      .in_file(file, {rows[i].line, 1})
+                                      .hinting("an empty field leaves the graph's own value: a,,c")));
     Entry place;
+    place.line = rows[i].line;
     for (std::size_t column = 0; column < header.size(); ++column) {
-      const std::string& value = rows[i][column];
+      const std::string& value = fields[column];
       if (header[column] == "item") {
         place.name = value;
         continue;
@@ -219,6 +236,9 @@ std::vector<BatchItem> batch_items(const BatchChoice& choice) {
       if (l == 0 || choice.cross) name += (name.empty() ? "" : "+") + place.name;
       item.sets.insert(item.sets.end(), place.sets.begin(), place.sets.end());
       item.bytes += place.bytes;
+      if (place.line == 0) continue;
+      item.table = choice.table;
+      item.line = place.line;
     }
     name = tame(name);
     item.name = name;

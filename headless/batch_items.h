@@ -12,6 +12,8 @@ struct BatchItem {
   std::size_t index = 0;
   std::vector<std::string> sets;  // "NODE.PARAM=VALUE", as --set takes them
   std::uint64_t bytes = 0;        // of the files it names
+  std::string table;              // the file and the line it comes from, if it does
+  int line = 0;
 };
 
 struct BatchChoice {

@@ -11,7 +11,7 @@ namespace kinegraph {
 
 namespace {
 
-std::string folder_of(const CacheArguments& arguments) {
+std::string folder_of(const Program& program, const CacheArguments& arguments) {
   std::string folder = arguments.folder;
   if (const char* usual = std::getenv("KINEGRAPH_CACHE"); folder.empty() && usual) folder = usual;
   if (folder.empty())
@@ -19,7 +19,11 @@ std::string folder_of(const CacheArguments& arguments) {
         error("no-cache", "no cache folder was named").hinting("--cache DIR or $KINEGRAPH_CACHE")));
   std::error_code problem;
   if (std::filesystem::exists(folder, problem) && !std::filesystem::is_directory(folder, problem))
-    throw Failure(error("not-a-folder", fmt::format("'{}' is not a folder", folder)));
+    throw Failure(Diagnostic(error("not-a-folder", fmt::format("'{}' is not a folder", folder))
+                                 .hinting("--cache names the folder that `run --cache` fills")));
+  if (!std::filesystem::exists(folder, problem))
+    program.terminal.say(warning("missing-folder", fmt::format("there is no folder '{}' (yet)", folder))
+                             .hinting("the first `run --cache` makes it"));
   return absolute_path(folder);
 }
 
@@ -33,12 +37,12 @@ std::string told(const DiskCache::Stat& stat) {
 }  // namespace
 
 int cache_stat_command(const Program& program, const CacheArguments& arguments) {
-  program.terminal.result(told(DiskCache::stat(folder_of(arguments))) + "\n");
+  program.terminal.result(told(DiskCache::stat(folder_of(program, arguments))) + "\n");
   return exit_code::done;
 }
 
 int cache_gc_command(const Program& program, const CacheArguments& arguments) {
-  auto folder = folder_of(arguments);
+  auto folder = folder_of(program, arguments);
   std::uint64_t limit = 0;
   if (!arguments.limit.empty()) {
     try {
@@ -52,12 +56,12 @@ int cache_gc_command(const Program& program, const CacheArguments& arguments) {
 }
 
 int cache_clear_command(const Program& program, const CacheArguments& arguments) {
-  program.terminal.result("removed " + told(DiskCache::clear(folder_of(arguments))) + "\n");
+  program.terminal.result("removed " + told(DiskCache::clear(folder_of(program, arguments))) + "\n");
   return exit_code::done;
 }
 
 int cache_verify_command(const Program& program, const CacheArguments& arguments) {
-  auto stat = DiskCache::verify(folder_of(arguments), [&](const std::string& path) {
+  auto stat = DiskCache::verify(folder_of(program, arguments), [&](const std::string& path) {
     program.terminal.message(fmt::format("damaged: {}\n", path));
   });
   program.terminal.result(told(stat) + "\n");

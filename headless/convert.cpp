@@ -52,6 +52,10 @@ int convert_command(const Program& program, const ConvertArguments& arguments) {
   write.unit = unit_param(program, "Export", arguments.out_unit, "--out-unit");
   const std::string in = absolute_path(arguments.in), out = absolute_path(arguments.out);
   files.allow(in);
+  std::error_code not_there_yet;
+  if (fs::equivalent(in, out, not_there_yet))
+    throw Failure(Diagnostic(error("same-file", fmt::format("{} would be written over itself", arguments.in))
+                                 .hinting("give OUT another name")));
   EncodedFile encoded;
   try {
     const MotionFile file = read_motion_file(in, read, files, work);
@@ -63,6 +67,10 @@ int convert_command(const Program& program, const ConvertArguments& arguments) {
       refuse_onto_input(inputs, (fs::path(out).parent_path() / name).string());
   } catch (const Failure& failure) {
     Diagnostic problem = failure.diagnostic();
+    if (problem.file.empty() && (problem.code == "unknown-format" || problem.code == "wrong-content")) {
+      problem.param.clear();
+      problem.file = arguments.out;
+    }
     throw Failure(as_typed(std::move(problem), in, arguments.in));
   }
   for (Diagnostic one : work.reported) {

@@ -20,8 +20,8 @@ using Kind = Unit::Kind;
 // A diff as a person reads it: a heading a node, a line a unit.
 class Telling {
  public:
-  Telling(const Terminal& terminal, const Diff& diff, const Document& before, const Document& after)
-      : terminal_(terminal), diff_(diff), before_(before), after_(after) {}
+  Telling(const Terminal& terminal, const Diff& diff, const Document& after)
+      : terminal_(terminal), diff_(diff), after_(after) {}
 
   void tell() {
     for (const auto& [from, to] : diff_.renames) {
@@ -137,7 +137,7 @@ class Telling {
 
   const Terminal& terminal_;
   const Diff& diff_;
-  const Document &before_, &after_;
+  const Document& after_;
   Renames renamed_to_;
   std::string heading_;
 };
@@ -167,7 +167,7 @@ int diff_command(const Program& program, const DiffArguments& arguments) {
   if (arguments.json)
     program.terminal.result(indented(to_json(changes)));
   else
-    Telling(program.terminal, changes, a.document, b.document).tell();
+    Telling(program.terminal, changes, b.document).tell();
   return arguments.check && !changes.empty() ? exit_code::failed : exit_code::done;
 }
 

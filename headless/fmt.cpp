@@ -48,12 +48,12 @@ int fmt_command(const Program& program, const std::vector<std::string>& graphs, 
       opened.problems = std::move(read.problems);
     } else {
       opened = open_graph(graph, program.registry, false);
-      before = text_of(graph);
     }
     if (!usable_version(program, opened, true)) {
       code = graver(code, exit_code::invalid);
       continue;
     }
+    if (!piped) before = text_of(graph);
     auto after = write_document(opened.document, program.registry);
     if (check) {
       if (before == after) continue;

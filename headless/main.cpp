@@ -67,6 +67,37 @@ void add_graph(CLI::App& app, std::string& graph) {
   app.add_option("GRAPH", graph, "A graph file, *.kg.json")->required()->type_name("");
 }
 
+// What CLI11 says of a wrong command line, as every other mistake is told.
+Diagnostic misused(const CLI::App& app, const CLI::ParseError& problem) {
+  const CLI::App* command = &app;
+  std::string name = "kinegraph";
+  for (auto within = app.get_subcommands(); !within.empty(); within = command->get_subcommands()) {
+    command = within.front();
+    name += " " + command->get_name();
+  }
+  std::string message = problem.what(), hint;
+  std::vector<std::string> options, commands;
+  for (const auto* option : command->get_options())
+    for (const std::string& one : option->get_lnames()) options.push_back("--" + one);
+  for (const auto* one : command->get_subcommands({})) commands.push_back(one->get_name());
+  const std::size_t colon = message.rfind(": ");
+  const std::string last = colon == message.npos ? "" : message.substr(colon + 2);
+  if (dynamic_cast<const CLI::ExtrasError*>(&problem) && last.starts_with("-")) {
+    const std::string near = nearest(last.substr(0, last.find_first_of(" =")), options);
+    message = fmt::format("there is no option {}", last);
+    if (!near.empty()) hint = fmt::format("did you mean {}? ", near);
+  } else if (dynamic_cast<const CLI::ExtrasError*>(&problem)) {
+    message = fmt::format("{} is one word too many", last);
+  } else if (!commands.empty()) {
+    message = fmt::format("{} needs a command", name);
+    hint = fmt::format("{}; ", fmt::join(commands, ", "));
+  } else if (const std::size_t equals = last.find(" = "); equals != last.npos) {
+    message = fmt::format("{}: {} can't be read", last.substr(0, equals), in_quotes(last.substr(equals + 3)));
+    hint = "wanted is a number; ";
+  }
+  return error("bad-option", message).hinting(fmt::format("{}{} --help tells how it is used", hint, name));
+}
+
 // The command line as CLI11 sees it, and what the chosen command will do.
 int chosen(const Program& program, int argc, char** argv) {
   CLI::App app{"Kinegraph: a compositor for character motion.", "kinegraph"};
@@ -312,7 +343,8 @@ int chosen(const Program& program, int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? exit_code::done : exit_code::usage;
+    if (problem.get_exit_code() == 0) return app.exit(problem);  // it was asked for help or the version
+    throw UsageError(misused(app, problem));
   }
   return act();
 }

@@ -172,6 +172,10 @@ int pack_command(const Program& program, const RunArguments& arguments, const st
   Session session(program, arguments, open_graph(arguments.graph, program.registry));
   program.terminal.say(session.problems());
   if (!session.valid()) return exit_code::invalid;
+  std::error_code not_there_yet;
+  if (fs::exists(folder, not_there_yet) && !fs::is_directory(folder, not_there_yet))
+    throw Failure(Diagnostic(error("not-a-folder", fmt::format("'{}' is not a folder", folder))
+                                 .hinting("-o names the folder that everything goes to")));
   try {
     return Packing(program, session, absolute_path(folder)).go();
   } catch (const fs::filesystem_error& problem) {

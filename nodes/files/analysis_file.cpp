@@ -41,6 +41,9 @@ AnalysisFile read_analysis(std::string_view text) {
     throw Failure(error(code, std::move(what)).hinting(std::move(hint)).in_file({}, json.place));
   };
   const Json* format = json.find("format");
+  if (format && *format == Json("kinegraph"))
+    refuse("not-an-analysis", "this is a graph, not what one gives",
+           "kinegraph get GRAPH NODE.PORT -o FILE writes one of its results");
   if (!format || !format->is_string() || format->string().compare(0, prefix.size(), prefix) != 0)
     refuse("not-an-analysis", "the JSON is no analysis: \"format\" must be \"kinegraph-stats\" or the like",
            "Load reads the JSON that Export writes");
