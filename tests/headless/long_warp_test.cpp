@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "program.h"
+#include "tests/sanitized.h"
 
 namespace kinegraph {
 namespace {
@@ -53,9 +54,7 @@ class LongWarp : public ProgramTest {
 };
 
 TEST_F(LongWarp, OfTwentyThousandFramesStaysUnder400MiB) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers keep memory of their own";
-#endif
+  if (sanitized) GTEST_SKIP() << "sanitizers keep memory of their own";
   const Ran ran = run({"run", "g.kg.json", "--set", "warp.iterations=1", "--out", "out", "--report", "r.json",
                        "--threads", "2", "--progress", "none"});
   ASSERT_EQ(ran.exit, 0) << ran.err;

@@ -1,5 +1,6 @@
 // How much memory the real program takes to read a long clip of each format.
 #include "program.h"
+#include "tests/sanitized.h"
 
 namespace kinegraph {
 namespace {
@@ -68,11 +69,8 @@ class Memory : public ProgramTest {
   }
 };
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define KINEGRAPH_NEEDS_PLAIN_MEMORY() GTEST_SKIP() << "sanitizers keep memory of their own"
-#else
-#define KINEGRAPH_NEEDS_PLAIN_MEMORY()
-#endif
+#define KINEGRAPH_NEEDS_PLAIN_MEMORY() \
+  if (sanitized) GTEST_SKIP() << "sanitizers keep memory of their own"
 
 TEST_F(Memory, OfReadingBvhIsUnderThreeTimesTheDecodedMotion) {
   KINEGRAPH_NEEDS_PLAIN_MEMORY();

@@ -10,12 +10,10 @@
 #include "tests/mocap.h"
 #include "tests/nodes/files/plain_files.h"
 #include "tests/nodes/motion/sample_motion.h"
+#include "tests/sanitized.h"
 
-#ifdef __has_feature
-#if __has_feature(address_sanitizer)
+#ifdef KINEGRAPH_LEAKS_ARE_WATCHED
 #include <sanitizer/lsan_interface.h>
-#define KINEGRAPH_LEAKS_ARE_WATCHED
-#endif
 #endif
 
 namespace kinegraph {
