@@ -76,6 +76,15 @@ nlohmann::json vertices_of(const Motion& motion, const Character& character, std
   return frames;
 }
 
+double height_of(const nlohmann::json& points) {
+  double low = points[0][1], high = low;
+  for (const auto& p : points) {
+    low = std::min(low, p[1].get<double>());
+    high = std::max(high, p[1].get<double>());
+  }
+  return high - low;
+}
+
 }  // namespace
 }  // namespace kinegraph
 
@@ -96,8 +105,10 @@ int main(int argc, char** argv) {
     if (!file.motion()) throw Failure(error("no-motion", "no motion in " + std::string(argv[1])));
     nlohmann::json out = positions_of(*file.motion());
     if (const auto* character = dynamic_cast<const Character*>(file.find("character"));
-        character && every > 0)
+        character && every > 0) {
       out["vertices"] = vertices_of(*file.motion(), *character, every);
+      if (out["height"] == 0) out["height"] = height_of(out["vertices"]["0"]);
+    }
     std::ofstream(argv[2]) << out;
   } catch (const Failure& problem) {
     std::cerr << problem.what() << "\n";

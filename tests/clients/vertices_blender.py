@@ -19,10 +19,12 @@ addon_utils.enable("io_scene_gltf2")
 scene = bpy.context.scene
 scene.render.fps = round(float(fps))
 bpy.ops.import_scene.gltf(filepath=path)
-armature = next(o for o in bpy.data.objects if o.type == "ARMATURE")
-shapes = {bone.custom_shape for bone in armature.pose.bones}  # which the importer draws bones with
+armatures = [o for o in bpy.data.objects if o.type == "ARMATURE"]
+shapes = {bone.custom_shape for a in armatures for bone in a.pose.bones}  # which the importer draws bones with
 meshes = [o for o in scene.objects if o.type == "MESH" and o not in shapes]
-first, last = (round(v) for v in armature.animation_data.action.frame_range)
+# Of a mesh without a skeleton its shape keys are what moves.
+moving = [a for a in armatures if a.animation_data] or [o.data.shape_keys for o in meshes if o.data.shape_keys]
+first, last = (round(v) for v in moving[0].animation_data.action.frame_range)
 vertices = {}
 for frame in range(first, last + 1, int(every)):
     scene.frame_set(frame)
