@@ -112,7 +112,7 @@ TEST_F(Retarget, keeps_directions_turns_and_plants_between_four_bodies) {
       const FootErrors feet = foot_errors(with_clean_feet(made, own), own);
       EXPECT_GT(feet.plants, 10);
       EXPECT_LT(feet.skate, 0.001);
-      EXPECT_LT(feet.off_ground, 0.006);
+      EXPECT_LT(feet.off_ground, 0.005);
     }
   }
   EXPECT_EQ(told("no-common-joint"), nullptr);
