@@ -85,7 +85,7 @@ NodeType style_transfer_node() {
   add_fade_param(type);
   add_amount_param(type);
   add_map_param(type);
-  type.code_version = 4;
+  type.code_version = 5;
   type.compute = [](Compute& compute) {
     const auto& motion = compute.input<Motion>("motion");
     const StyleTransferParams settings = settings_of(compute.params(), motion, compute.work());

@@ -123,11 +123,13 @@ std::optional<double> sweep_factor(const Motion& before, const Motion& after, co
     const auto from_root = [&](const WorldMotion& of, std::size_t t) {
       return rotate(about_y(-root.heading[t]), point_at(of, point.joint, point.local, t) - of.position(0)[t]);
     };
-    const auto is_low = [&](std::size_t t) { return point_at(world, point.joint, point.local, t).y < limit; };
-    for (std::size_t t = 1; t < before.frames(); ++t) {
-      if ((!counted.empty() && !counted[t]) || !is_low(t) || !is_low(t - 1)) continue;
-      const Vec3 b = from_root(world, t) - from_root(world, t - 1);
-      const Vec3 c = from_root(changed, t) - from_root(changed, t - 1);
+    std::vector<bool> low_frames(before.frames());
+    for (std::size_t t = 0; t < before.frames(); ++t)
+      low_frames[t] =
+          (counted.empty() || counted[t]) && point_at(world, point.joint, point.local, t).y < limit;
+    for (const Run& run : runs_of(low_frames)) {
+      const Vec3 b = from_root(world, run.end - 1) - from_root(world, run.start);
+      const Vec3 c = from_root(changed, run.end - 1) - from_root(changed, run.start);
       both += b.x * c.x + b.z * c.z;
       squared += b.x * b.x + b.z * b.z;
     }

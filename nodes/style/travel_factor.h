@@ -27,10 +27,13 @@ std::vector<std::size_t> frames_shown(const Motion& motion);
 Contacts plants_of(const Motion& motion, Work& work);
 
 // The factor for a motion whose frames are held and left out, whose root therefore doesn't fit its feet frame
-// by frame: how much longer the steps of low feet relative to the root have become from `before` to `after`,
-// Σ b·b′ / Σ b·b over the points of `contacts` (planted or not) where they are within 4 cm of their usual
-// low. As long as the feet of `before` stood still in their own time, so will those of `after`. Both motions
-// have the same frames and headings. Nothing where nothing moves.
+// by frame: how much longer the ways of low feet relative to the root have become from `before` to `after`,
+// Σ b·b′ / Σ b·b, b being the way from the first to the last frame of each stretch in which a point of
+// `contacts` (planted or not) is within 4 cm of its usual low. A whole stretch doesn't mind which of its
+// frames are held or left out, and what the foot does there and back cancels: on the pairs of Wu's Table 1 it
+// is within 9 % of what the plants ask for once the warp is undone, a sum over single frames within 29 %. As
+// long as the feet of `before` stood still in their own time, so will those of `after`. Both motions have the
+// same frames and headings. Nothing where nothing moves.
 std::optional<double> sweep_factor(const Motion& before, const Motion& after, const Contacts& contacts,
                                    const std::vector<bool>& counted, Work& work);
 

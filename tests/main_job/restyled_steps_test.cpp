@@ -91,5 +91,38 @@ TEST_P(RestyledPair, KeepsEachStepOfEachFoot) {
   EXPECT_GE(expect_steps_kept(source, result, GetParam().min_time, GetParam().name), 3u);
 }
 
+// How much faster the root would have to travel for resting feet to slide least.
+double lacking_travel(const Motion& motion, const Motion& source) {
+  const auto root = independent::positions_of(motion)[0];
+  double along = 0, squared = 0;
+  for (bool left : {true, false}) {
+    const auto [heel, toe] = independent::heel_and_toe(motion, left);
+    const auto [own_heel, own_toe] = independent::heel_and_toe(source, left);
+    for (const auto& [path, own] : {std::pair{heel, own_heel}, std::pair{toe, own_toe}}) {
+      const auto flags = independent::rests(own, source.fps(), 0.1);
+      for (std::size_t t = 1; t < flags.size(); ++t) {
+        if (!flags[t] || !flags[t - 1]) continue;
+        const Vec3 a = root[t] - root[t - 1], b = path[t] - path[t - 1] - a;
+        along += a.x * b.x + a.z * b.z;
+        squared += a.x * a.x + a.z * a.z;
+      }
+    }
+  }
+  return -along / squared;
+}
+// Of walks whose warp holds frames and leaves some out: StyleTransfer sets the travel without knowing the
+// warp.
+class WarpedPair : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Wu, WarpedPair, testing::Values("stealthy", "old"),
+                         [](const auto& pair) { return std::string(pair.param); });
+TEST_P(WarpedPair, TravelsAboutAsItsPlantsAsk) {
+  KINEGRAPH_NEEDS_MOCAP();
+  const std::string graph = fmt::format("tests/main_job/{}.kg.json", GetParam());
+  const Motion source = got(graph, "source.motion"), restyled = got(graph, "unwarp.motion");
+  const double lacks = lacking_travel(restyled, source) / lacking_travel(source, source);
+  fmt::print("{}: its plants ask for {:.3f} times its travel\n", GetParam(), lacks);
+  EXPECT_NEAR(lacks, 1, 0.15);
+}
+
 }  // namespace
 }  // namespace kinegraph
