@@ -127,7 +127,10 @@ class Turning {
     const auto from = std::as_const(places_).orientation(own);
     const auto to = std::as_const(places_).orientation(sub_.first[first.next]);
     std::vector<Quat> between(world_.frames());
-    for (std::size_t t = 0; t < between.size(); ++t) between[t] = inverse(from[t]) * to[t];
+    // Of the two joints' turns from rest: frames of a rig may stand half a turn apart, and mean nothing by
+    // it.
+    const Quat apart = inverse(inverse(rest_.orientations[k]) * rest_.orientations[first.next]);
+    for (std::size_t t = 0; t < between.size(); ++t) between[t] = inverse(from[t]) * to[t] * apart;
     const std::vector<Vec3> turns = followed_turns(between, 1 / fps_, most_a_second / fps_);
     std::vector<QuatTrack> out;
     for (int l = 1; l < first.count; ++l) out.push_back(places_.orientation(own + l));

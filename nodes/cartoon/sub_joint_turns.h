@@ -18,7 +18,8 @@ std::vector<Vec3> followed_turns(std::span<const Quat> turns, double seconds, do
 
 // Sets the orientations of `places`, whose positions are those of the sub-joints, from the joints' `world`
 // before they moved. J′_{k,1}: aim_link(), or aim_branch(), from joint k's old link to its first new one.
-// J′_{k,l}: the Slerp by (l − 1)/m_k from it to the child's first, the turn between them as
+// J′_{k,l}: the Slerp by (l − 1)/m_k from it to the child's first, both as they are turned from the joints'
+// rest poses (so that it doesn't depend on how a rig's frames stand), the turn between them as
 // followed_turns(), its twist about its own sub-link held to `limits`. `ends`: links_below() of the joints.
 // `axes`: each sub-joint's link at rest in its own frame; empty: they aren't held (one frame needs no limit).
 void turn_sub_joints(const Skeleton& skeleton, const SubJoints& sub,

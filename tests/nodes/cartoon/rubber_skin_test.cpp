@@ -325,6 +325,31 @@ TEST(RubberSkin, ClosesGapsBetweenShellsWithMoreSubJoints) {
   RecordProperty("gap", std::to_string(usual) + " m, with 12 sub-joints " + std::to_string(finer));
 }
 
+// The mannequin's feet have frames half a turn away from their shins', at rest as in motion.
+TEST(RubberSkin, WringsNoLimbWhoseFramesStandApart) {
+  Alone work;
+  PlainFiles files;
+  const MotionFile file =
+      read_motion_file(KINEGRAPH_SOURCE_DIR "/graphs/characters/mannequin.glb", {}, files, work);
+  const auto& mannequin = dynamic_cast<const Character&>(*file.find("character"));
+  const Motion body(mannequin.skeleton, std::make_shared<SourceFacts>(), 30, 1,
+                    std::vector<bool>(mannequin.skeleton->joints.size(), false));
+  const int foot = mannequin.skeleton->find("mixamorig:LeftFoot");
+  EXPECT_GT(turn(mannequin.skeleton->joints[foot].rest), 3.1);
+  const Motion run = retarget(gait("run", 2), {&body, {}}, {}, work).motion;
+  const RubberResult rubber = rubber_joints(run, {}, nullptr, work);
+  double most = 0;
+  for (std::size_t i = 0; i < rubber.sub_joints.all.size(); ++i) {
+    if (rubber.sub_joints.all[i].step == 0) continue;
+    const int j = static_cast<int>(i);
+    for (std::size_t t = 0; t < run.frames(); ++t)
+      most = std::max(most, turn(inverse(rubber.motion.skeleton().joints[i].rest) *
+                                 std::as_const(rubber.motion).rotation(j)[t]));
+  }
+  EXPECT_LT(most, 0.6);  // of 2 and more where the frames themselves were followed
+  RecordProperty("turn", std::to_string(most));
+}
+
 TEST(RubberJointsNode, PassesACharacterThrough) {
   const Motion walk = gait("walk", 1);
   NodeInMemory node(rubber_joints_node());
