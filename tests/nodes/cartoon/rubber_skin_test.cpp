@@ -340,13 +340,14 @@ TEST(RubberSkin, WringsNoLimbWhoseFramesStandApart) {
   const RubberResult rubber = rubber_joints(run, {}, nullptr, work);
   double most = 0;
   for (std::size_t i = 0; i < rubber.sub_joints.all.size(); ++i) {
-    if (rubber.sub_joints.all[i].step == 0) continue;
+    const std::string& name = rubber.motion.skeleton().joints[i].name;
+    if (rubber.sub_joints.all[i].step == 0 || name.find("tLeg") == std::string::npos) continue;
     const int j = static_cast<int>(i);
     for (std::size_t t = 0; t < run.frames(); ++t)
       most = std::max(most, turn(inverse(rubber.motion.skeleton().joints[i].rest) *
                                  std::as_const(rubber.motion).rotation(j)[t]));
   }
-  EXPECT_LT(most, 0.6);  // of 2 and more where the frames themselves were followed
+  EXPECT_LT(most, 0.5);
   RecordProperty("turn", std::to_string(most));
 }
 
