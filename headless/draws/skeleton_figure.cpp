@@ -93,6 +93,13 @@ Figure::Figure(const Skeleton& skeleton) {
     if (arm.hand >= 0) hands_.push_back(arm.hand);
 }
 
+double Figure::reach(int joint) const {
+  double reach = 0.07 * height_;
+  for (const Limb& limb : limbs_)
+    if (limb.head && limb.joint == joint) reach = std::max(reach, norm(limb.to.local) + 1.5 * limb.to.radius);
+  return reach;
+}
+
 // Thicker the more there is below: hips over knees over ankles, arms over fingers.
 double Figure::radius_at(int joint) const {
   return height_ *

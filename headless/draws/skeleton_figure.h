@@ -25,6 +25,8 @@ class Figure {
   // world's origin) isn't drawn.
   int body() const { return body_joint_; }
   const std::vector<int>& joints() const { return joints_; }  // body() and all below it
+  // How far the drawing stands out beyond the joint, m: of the head by all of it.
+  double reach(int joint) const;
   Side side(int joint) const { return sides_[static_cast<std::size_t>(joint)]; }
   const std::vector<int>& feet() const {
     return feet_;

@@ -63,11 +63,10 @@ SolidMesh mesh_of(const Row& row, std::size_t frame) {
 
 // Extent of the figures about the followed point, in metres on the page.
 void measure(Row& row, const StripLayout& layout, const Camera& unit_camera) {
-  // What limbs and head stand out beyond the joints; of a mesh every vertex is there.
-  double reach = (row.skin ? 0.01 : 0.07) * row.figure.height();
   for (std::size_t frame : layout.frames) {
     double leftmost = 1e300, rightmost = -1e300;
-    const auto include = [&](Vec3 place) {
+    // `reach`: what limbs and head stand out beyond the joints; of a mesh every vertex is there.
+    const auto include = [&](Vec3 place, double reach) {
       Spot spot = unit_camera.project(place - layout.followed[frame]);
       row.above = std::max(row.above, reach - spot.y);
       row.below = std::max(row.below, reach + spot.y);
@@ -77,9 +76,10 @@ void measure(Row& row, const StripLayout& layout, const Camera& unit_camera) {
       if (frame == layout.frames.back()) row.after = std::max(row.after, reach + spot.x);
     };
     if (row.skin)
-      for (Vec3 place : mesh_of(row, frame).positions) include(place);
+      for (Vec3 place : mesh_of(row, frame).positions) include(place, 0.01 * row.figure.height());
     else
-      for (int joint : row.figure.joints()) include(row.world.position(joint)[frame]);
+      for (int joint : row.figure.joints())
+        include(row.world.position(joint)[frame], row.figure.reach(joint));
     row.wide += (rightmost - leftmost) / static_cast<double>(layout.frames.size());
   }
 }
