@@ -25,6 +25,11 @@ class Pairs {
   Series a() const { return series(a_, a_frames_); }
   Series b() const { return series(b_, b_frames_); }
   std::size_t dims() const { return dims_; }
+  std::vector<double> all() const {
+    std::vector<double> out = a_;
+    out.insert(out.end(), b_.begin(), b_.end());
+    return out;
+  }
 
  private:
   Series series(const std::vector<double>& values, std::size_t frames) const {
@@ -36,12 +41,12 @@ class Pairs {
   std::vector<double> a_, b_;
 };
 
-std::vector<double> about_mean(const double* values, std::size_t count, double weight) {
+std::vector<double> about_mean(const double* values, std::size_t count) {
   double mean = 0;
   for (std::size_t t = 0; t < count; ++t) mean += values[t];
   mean /= static_cast<double>(count);
   std::vector<double> out(count);
-  for (std::size_t t = 0; t < count; ++t) out[t] = weight * (values[t] - mean);
+  for (std::size_t t = 0; t < count; ++t) out[t] = values[t] - mean;
   return out;
 }
 double sum_of_squares(const std::vector<double>& values) {
@@ -50,10 +55,63 @@ double sum_of_squares(const std::vector<double>& values) {
   return sum;
 }
 
+// What is no JOINT.x, JOINT.y or JOINT.z.
+Failure bad_dof(std::string_view dof, std::string_view joint, std::string_view param) {
+  const std::string name(joint);
+  return Failure(error("bad-align", "\"" + std::string(dof) + "\" is no degree of freedom")
+                     .at_param(std::string(param))
+                     .at_joint(name)
+                     .hinting("'" + name + "' has " + name + ".x, " + name + ".y and " + name + ".z"));
+}
+
 Failure bad_align(std::string_view entry, std::string_view param) {
   return Failure(error("bad-align", "\"" + std::string(entry) + "\" says nothing to align by")
                      .at_param(std::string(param))
                      .hinting("write u1, group:NAME, joint:PATTERN or dof:JOINT.x"));
+}
+
+// An entry of `align`, read.
+struct AlignedBy {
+  enum Kind { component, joints, dof } kind = joints;
+  ComponentRef ref;
+  std::string pattern;
+};
+std::vector<AlignedBy> read_entries(const Components& components, const ComponentSegment& a,
+                                    const std::vector<std::string>& align_by, std::string_view param) {
+  std::vector<AlignedBy> out;
+  if (align_by.empty() && a.motion) out.push_back({AlignedBy::joints, {}, "*"});
+  for (std::size_t i = 0; align_by.empty() && !a.motion && i < components.count(); ++i)
+    out.push_back({AlignedBy::component, {static_cast<int>(i + 1), {}}, {}});
+  for (const std::string& entry : align_by) {
+    const auto colon = entry.find(':');
+    const std::string kind = entry.substr(0, colon),
+                      rest = colon == entry.npos ? "" : entry.substr(colon + 1);
+    const ComponentRef ref = component_ref(Json(entry));
+    if (colon == entry.npos && ref.component > 0)
+      out.push_back({AlignedBy::component, ref, {}});
+    else if (kind == "group" && colon != entry.npos)
+      out.push_back({AlignedBy::component, {0, rest}, {}});
+    else if (kind == "joint" && colon != entry.npos)
+      out.push_back({AlignedBy::joints, {}, rest});
+    else if (kind == "dof" && colon != entry.npos)
+      out.push_back({AlignedBy::dof, {}, rest});
+    else
+      throw bad_align(entry, param);
+  }
+  return out;
+}
+
+std::shared_ptr<const Value> clip_of(const ComponentSegment& segment) {
+  if (segment.motion) return segment.motion;
+  return segment.points;
+}
+
+void add_component(Pairs& pairs, const Components& components, const ComponentSegment& a,
+                   const ComponentSegment& b, const ComponentRef& ref, std::string_view param) {
+  for (const ComponentTerm& term : terms_of(ref, components.count(), components.groups, param)) {
+    const double* u = components.signals.row(term.index);
+    pairs.add(about_mean(u + a.start, a.frames()), about_mean(u + b.start, b.frames()));
+  }
 }
 
 class Collector {
@@ -62,15 +120,7 @@ class Collector {
             std::string_view param, Work& work)
       : components_(components), a_(a), b_(b), param_(param), work_(work), pairs_(a.frames(), b.frames()) {}
 
-  void component(const ComponentRef& ref) {
-    for (const ComponentTerm& term : terms_of(ref, components_.count(), components_.groups, param_)) {
-      const double* u = components_.signals.row(term.index);
-      pairs_.add(about_mean(u + a_.start, a_.frames(), 1), about_mean(u + b_.start, b_.frames(), 1));
-    }
-  }
-  void all_components() {
-    for (std::size_t i = 0; i < components_.count(); ++i) component({static_cast<int>(i + 1), {}});
-  }
+  void component(const ComponentRef& ref) { add_component(pairs_, components_, a_, b_, ref, param_); }
   // `dof`: a single one, named JOINT.axis.
   void joints(std::string_view pattern, bool dof) {
     if (a_.motion)
@@ -85,6 +135,15 @@ class Collector {
     const Skeleton& skeleton = a_.motion->skeleton();
     std::vector<bool> chosen;
     if (dof) {
+      const auto dot = pattern.rfind('.');
+      const std::string joint(pattern.substr(0, dot));
+      const auto dofs = all_dofs(skeleton);
+      if (pattern != "root" && pattern.find(',') == pattern.npos &&
+          std::none_of(dofs.begin(), dofs.end(),
+                       [&](const Dof& one) { return name_of(one, skeleton) == pattern; })) {
+        if (skeleton.find(joint) < 0) chosen_joints(joint, skeleton, param_, work_);  // throws, with its hint
+        throw bad_dof(pattern, joint, param_);
+      }
       chosen = chosen_dofs(pattern, skeleton, param_, work_);
     } else {
       for (bool joint : chosen_joints(pattern, skeleton, param_, work_))
@@ -104,9 +163,13 @@ class Collector {
   void of_points(std::string_view pattern, bool dof) {
     int only = -1;
     if (dof) {
-      if (pattern.size() < 3 || pattern[pattern.size() - 2] != '.') throw bad_align(pattern, param_);
+      const auto dot = pattern.rfind('.');
+      const std::string label(pattern.substr(0, dot));
+      chosen_names(label, components_.space.labels, param_,
+                   work_);  // throws where there is none, with its hint
+      if (dot == pattern.npos || dot + 2 != pattern.size()) throw bad_dof(pattern, label, param_);
       only = pattern.back() - 'x';
-      if (only < 0 || only > 2) throw bad_align(pattern, param_);
+      if (only < 0 || only > 2) throw bad_dof(pattern, label, param_);
       pattern.remove_suffix(2);
     }
     const auto chosen = chosen_names(pattern, components_.space.labels, param_, work_);
@@ -114,7 +177,7 @@ class Collector {
                b = channels_of(components_.space, *b_.points, work_);
     for (std::size_t d = 0; d < a.rows; ++d) {
       if (!chosen[d / 3] || (only >= 0 && static_cast<int>(d % 3) != only)) continue;
-      auto from = about_mean(a.row(d), a.columns, 1), to = about_mean(b.row(d), b.columns, 1);
+      auto from = about_mean(a.row(d), a.columns), to = about_mean(b.row(d), b.columns);
       const double spread =
           std::sqrt((sum_of_squares(from) + sum_of_squares(to)) / static_cast<double>(a.columns + b.columns));
       if (spread < 1e-6) continue;
@@ -176,30 +239,26 @@ Correspondence aligned_segments(const Components& components, const ComponentSeg
   if (a.frames() == 0 || b.frames() == 0)
     throw Failure(
         error("no-frames", "a segment without frames can't be aligned").at_param(std::string(param)));
-  Collector collector(components, a, b, param, work);
-  if (align_by.empty() && a.motion) collector.joints("*", false);
-  if (align_by.empty() && !a.motion) collector.all_components();
-  for (const std::string& entry : align_by) {
-    const std::string_view text = entry;
-    const auto colon = text.find(':');
-    const std::string_view kind = text.substr(0, colon),
-                           rest = colon == text.npos ? "" : text.substr(colon + 1);
-    if (colon == text.npos) {
-      const ComponentRef ref = component_ref(Json(entry));
-      if (ref.component == 0) throw bad_align(entry, param);
-      collector.component(ref);
-    } else if (kind == "group") {
-      collector.component({0, std::string(rest)});
-    } else if (kind == "joint" || kind == "dof") {
-      collector.joints(rest, kind == "dof");
-    } else {
-      throw bad_align(entry, param);
+  const std::vector<AlignedBy> entries = read_entries(components, a, align_by, param);
+  AlignmentKey key{{clip_of(a)}, {clip_of(b)}, align_by, std::string(param), {}};
+  Pairs signals(a.frames(), b.frames());
+  for (const AlignedBy& entry : entries)
+    if (entry.kind == AlignedBy::component) add_component(signals, components, a, b, entry.ref, param);
+  key.signals = signals.all();
+  const auto find = [&](Work& part) {
+    Collector collector(components, a, b, param, part);
+    for (const AlignedBy& entry : entries) {
+      if (entry.kind == AlignedBy::component)
+        collector.component(entry.ref);
+      else
+        collector.joints(entry.pattern, entry.kind == AlignedBy::dof);
     }
-  }
-  if (collector.pairs().dims() == 0)
-    throw Failure(
-        error("no-features", "nothing that moves is chosen to align by").at_param(std::string(param)));
-  return align(collector.pairs().a(), collector.pairs().b(), 0, false, work);
+    if (collector.pairs().dims() == 0)
+      throw Failure(
+          error("no-features", "nothing that moves is chosen to align by").at_param(std::string(param)));
+    return align(collector.pairs().a(), collector.pairs().b(), 0, false, part);
+  };
+  return *components.memory->alignments.get(key, find, work);
 }
 
 ClockMaps clock_maps(const Correspondence& path, std::size_t a_frames, std::size_t b_frames, double fps,

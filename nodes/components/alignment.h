@@ -13,7 +13,7 @@ namespace kinegraph {
 // What is compared: entries `u3`, `group:NAME`, `joint:PATTERN`, `dof:JOINT.x`. None: all joints of motions,
 // all components of points. Each is taken about the segment's own mean, so that a difference of style doesn't
 // bend time. Throws Failure at `param`: "bad-align", "unknown-component", "unknown-joint", "no-features"
-// (nothing moves).
+// (nothing moves). Found once for the same clips, signals and entries (component_memory.h).
 Correspondence aligned_segments(const Components& components, const ComponentSegment& a,
                                 const ComponentSegment& b, const std::vector<std::string>& align,
                                 std::string_view param, Work& work);

@@ -154,11 +154,18 @@ class Editing {
     } else if (inputs_.edited_motion && base().motion) {
       check_length(inputs_.edited_motion->frames());
       // ComponentMotion gave a motion with whole bones; what that alone changed is no edit.
-      const Motion shown = motion_from_channels(now_.space, alone, *base().motion, {}, work_);
       std::vector<double> near;
       for (std::size_t d = 0; d < alone.rows; ++d) near.push_back(alone(d, 0));
-      add(added, channels_of(now_.space, *inputs_.edited_motion, near, work_),
-          channels_of(now_.space, shown, near, work_));
+      ShownKey key{{base().motion}, entries, {}};
+      for (std::size_t i : entries) key.signals.insert(key.signals.end(), u_.row(i), u_.row(i) + frames());
+      const auto shown = now_.memory->shown.get(
+          key,
+          [&](Work& work) {
+            const Motion motion = motion_from_channels(now_.space, alone, *base().motion, {}, work);
+            return channels_of(now_.space, motion, near, work);
+          },
+          work_);
+      add(added, channels_of(now_.space, *inputs_.edited_motion, near, work_), *shown);
     } else {
       throw no_input("edited");
     }
@@ -177,6 +184,9 @@ class Editing {
                    fmt::format("frame {} is outside the segment", frame),
                    fmt::format("it has {} frames", frames()));
       const auto at = static_cast<std::size_t>(frame);
+      if (knots.count(at))
+        throw fail("bad-edit", fmt::format("keys[{}]", k), fmt::format("frame {} has a key already", frame),
+                   "keep one of the two");
       double present = 0;  // along the group's direction
       for (const ComponentTerm& term : all) present += term.weight * u_(term.index, at) / square;
       knots[at] = {value - present, 0, 0};

@@ -7,6 +7,7 @@
 
 #include "graph/value.h"
 #include "nodes/components/channels.h"
+#include "nodes/components/component_memory.h"
 #include "nodes/components/rows.h"
 
 namespace kinegraph {
@@ -45,6 +46,9 @@ class Components final : public Value {
   int iterations = 0;
   double reached = 0, tolerance = 0, negentropy = 0;
   std::vector<bool> unique;  // false: another optimum with nearly the same negentropy lacks this component
+
+  // No part of the value: what follows from it, and from copies with other signals, segments or groups.
+  std::shared_ptr<ComponentMemory> memory = std::make_shared<ComponentMemory>();
 
   std::size_t count() const { return signals.rows; }
   std::size_t frames() const { return signals.columns; }

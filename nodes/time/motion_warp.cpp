@@ -81,7 +81,8 @@ class Warping {
       throw Failure(error("duplicate-key", "the joint has such a key at this frame already")
                         .at_param(fmt::format("keys[{}]", k))
                         .at_joint(key.joint)
-                        .at_frame(key.frame));
+                        .at_frame(key.frame)
+                        .hinting("keep one of the two"));
     if (key.rotation) {
       const double size = std::sqrt(dot(*key.rotation, *key.rotation));
       if (!(size > 1e-6) || !std::isfinite(size))

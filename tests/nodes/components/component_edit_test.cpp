@@ -267,11 +267,77 @@ TEST(ComponentEdit, RefusesWhatIsNotThere) {
   EXPECT_EQ(refusal(c, edits::Transfer{{{1, ""}}, 1, 0, {}, false, {}, 1}, 1).param, "edits[0].to");
   EXPECT_EQ(refusal(c, edits::Transfer{{{1, ""}}, 1, 0, {"hip"}, false, {}, 1}).code, "bad-align");
   EXPECT_EQ(refusal(c, edits::Warp{{1, ""}, {{40, 0}}}).code, "bad-frame");
+  const Diagnostic twice = refusal(c, edits::Warp{{1, ""}, {{10, 1}, {20, 0}, {10, 2}}});
+  EXPECT_EQ(twice.code, "bad-edit");
+  EXPECT_EQ(twice.param, "edits[0].keys[2]");
+  EXPECT_THAT(twice.message, HasSubstr("frame 10 has a key already"));
+  const Diagnostic dof = refusal(c, edits::Transfer{{{1, ""}}, 1, 0, {"dof:q.w"}, false, {}, 1});
+  EXPECT_EQ(dof.code, "bad-align");
+  EXPECT_THAT(dof.hint, HasSubstr("q.x, q.y and q.z"));
+  EXPECT_EQ(refusal(c, edits::Transfer{{{1, ""}}, 1, 0, {"dof:r.x"}, false, {}, 1}).code, "unknown-joint");
   EXPECT_EQ(refusal(c, edits::Merge{"u1", {}}).code, "bad-edit");
   EXPECT_EQ(refusal(c, edits::Merge{"g", {{{1, ""}, 1}, {{1, ""}, 1}}}).code, "bad-edit");
 }
 
 // On motions, through the nodes.
+
+// A value that can be changed without end: what doesn't depend on it is found once.
+TEST(ComponentEdit, FindsAnAlignmentOnceForEveryAmount) {
+  class Counting : public Alone {
+   public:
+    void parallel(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body) override {
+      ++loops;
+      Alone::parallel(count, grain, body);
+    }
+    int loops = 0;
+  };
+  Alone quiet;
+  const auto walk = shared(gait("walk", 2)), sneak = shared(gait("sneak", 2));
+  const Components kept = analysed({walk, sneak}, Representation::points, 3, quiet);
+  const auto loops = [](const Components& components, const std::vector<std::string>& align) {
+    Counting work;
+    aligned_segments(components, components.segments[0], components.segments[1], align, "align", work);
+    return work.loops;
+  };
+  EXPECT_GT(loops(kept, {}), 0);
+  EXPECT_EQ(loops(kept, {}), 0);
+  Components copy = kept;  // as an edit makes one
+  EXPECT_EQ(loops(copy, {}), 0);
+  // Another question is another alignment.
+  EXPECT_GT(loops(kept, {"joint:LeftUpLeg"}), 0);
+  copy.segments[0].motion = shared(*walk);
+  EXPECT_GT(loops(copy, {}), 0);
+  // What is remembered is what a new one finds: of signals, too, which an edit may have changed.
+  for (const std::vector<std::string>& align :
+       {std::vector<std::string>{}, {"u1"}, {"u2", "dof:LeftLeg.x"}}) {
+    Components fresh = kept;
+    fresh.memory = std::make_shared<ComponentMemory>();
+    const auto path = [&](const Components& components) {
+      Alone work;
+      return aligned_segments(components, components.segments[0], components.segments[1], align, "align",
+                              work)
+          .pairs;
+    };
+    EXPECT_EQ(path(kept), path(fresh));
+    Components changed = kept;
+    for (std::size_t t = 0; t < 60; ++t) changed.signals(0, t) *= -3;
+    fresh = changed;
+    fresh.memory = std::make_shared<ComponentMemory>();
+    EXPECT_EQ(path(changed), path(fresh));
+  }
+}
+
+TEST(ComponentEdit, TellsTheWarningsOfARememberedAlignmentAgain) {
+  Alone first, second;
+  const Components c =
+      analysed({shared(gait("walk", 1)), shared(gait("sneak", 1))}, Representation::points, 2, first);
+  for (Alone* work : {&first, &second})
+    aligned_segments(c, c.segments[0], c.segments[1], {"joint:*,-Tail*"}, "align", *work);
+  ASSERT_FALSE(second.reported.empty());
+  EXPECT_EQ(second.reported.back().code, "no-joint");
+  EXPECT_EQ(second.reported.back().message, first.reported.back().message);
+}
 
 Components walk_and_sneak(int components = 4) {
   Alone work;

@@ -157,7 +157,10 @@ TEST(MotionWarp, NamesWhatIsWrongWithAKey) {
   EXPECT_THAT(unknown.hint, testing::HasSubstr("LeftArm"));
   EXPECT_EQ(failure_of(walk, {{1, "LeftArm", none, Vec3{}}}).code, "bad-key");
   EXPECT_EQ(failure_of(walk, {{1, "LeftArm", Quat{0, 0, 0, 0}, {}}}).code, "bad-key");
-  EXPECT_EQ(failure_of(walk, {{1, "LeftArm", none, {}}, {1, "LeftArm", none, {}}}).code, "duplicate-key");
+  const Diagnostic twice = failure_of(walk, {{1, "LeftArm", none, {}}, {1, "LeftArm", none, {}}});
+  EXPECT_EQ(twice.code, "duplicate-key");
+  EXPECT_EQ(twice.frame, 1);
+  EXPECT_EQ(twice.hint, "keep one of the two");
   EXPECT_EQ(failure_of(walk, {{1, "Spine", {}, Vec3{}}}).code, "no-limb");
   const Vec3 hand = pose_at(walk, 9).positions[walk.skeleton().find("LeftHand")] + Vec3{0, 0.1, 0};
   EXPECT_EQ(failure_of(walk, {{9, "LeftArm", none, {}}, {9, "LeftHand", {}, hand}}).code, "keys-conflict");
