@@ -126,7 +126,10 @@ ChannelSpace space_of_points(const std::vector<std::shared_ptr<const Points>>& p
         error("too-few-labels", "too few points are chosen")
             .at_param("joints")
             .hinting(stabilise == Stabilise::rigid ? "a rigid motion takes three or more" : "choose some"));
-  for (const auto& one : points) check_whole(*one, labels_of(space.labels, *one));
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const std::string clip = points.size() > 1 ? "clip " + std::to_string(p) : "the clip";
+    check_whole(*points[p], labels_of(space.labels, *points[p], clip), clip);
+  }
   if (stabilise == Stabilise::rigid && first.frames > 0) {
     Vec3 centre;
     const auto stable = labels_of(space.stable, first);

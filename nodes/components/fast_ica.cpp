@@ -71,13 +71,14 @@ Rows between(const Rows& w, const Rows& next, double mu) {
 // while: the run goes round and round then (stabilised FastICA).
 class Step {
  public:
+  explicit Step(int patience) : patience_(patience) {}
   double size() const { return size_; }
   // `change`: that of the whole step, whatever part of it was gone.
   void after(double change) {
     if (change < 0.8 * least_) {
       least_ = change;
       waited_ = 0;
-    } else if (++waited_ >= patience && size_ > 1.0 / 64) {
+    } else if (++waited_ >= patience_ && size_ > 1.0 / 64) {
       size_ /= 2;
       waited_ = 0;
       least_ = change;
@@ -85,15 +86,14 @@ class Step {
   }
 
  private:
-  static constexpr int patience = 40;
   double size_ = 1, least_ = 1;
-  int waited_ = 0;
+  int patience_, waited_ = 0;
 };
 
 FastIcaRun symmetric_run(const Rows& z, const Rows& start, const FastIcaParams& params, Work& work) {
   FastIcaRun run;
   Rows w = nearest_orthonormal(start);
-  Step step;
+  Step step(params.patience);
   for (int iteration = 1; iteration <= params.iterations && !run.converged; ++iteration) {
     Rows next = nearest_orthonormal(stepped(w, moments(w, z, params.nonlinearity, work)));
     point_alike(next, w);
@@ -146,7 +146,7 @@ FastIcaRun deflation_run(const Rows& z, const Rows& start, const FastIcaParams& 
     Rows w(1, start.columns);
     std::copy_n(start.row(i), start.columns, w.row(0));
     make_new(w, found, 0);
-    Step step;
+    Step step(params.patience);
     double reached = 1;
     for (int iteration = 1; iteration <= params.iterations && reached >= params.tolerance; ++iteration) {
       Rows next = stepped(w, moments(w, z, params.nonlinearity, work));

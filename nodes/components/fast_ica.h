@@ -16,6 +16,7 @@ struct FastIcaParams {
   bool symmetric = true;    // false: deflation, one component at a time
   double tolerance = 1e-4;  // on max_i | |<w_i new, w_i old>| - 1 |
   int iterations = 200;
+  int patience = 40;  // rounds without coming nearer, after which the step is halved
 };
 
 struct FastIcaRun {

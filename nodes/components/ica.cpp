@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "nodes/components/optima.h"
+#include "nodes/components/best_start.h"
 #include "nodes/components/principal.h"
 
 namespace kinegraph {
@@ -31,42 +31,29 @@ std::size_t count_for(const Principal& principal, double variance) {
   return std::max<std::size_t>(k, 1);
 }
 
-// The best of the starts, and which of its components the others have too.
-struct Best {
-  FastIcaRun run;
-  std::vector<bool> unique;
+// Which way round a component is shown: positive skewness where it is plain, else the largest entry of its
+// mixing column positive. It hangs on little where skewness comes near the bound and says the opposite of the
+// entry, or where two entries of opposite sign are the largest: what differs from seed to seed may turn it
+// round then.
+struct Sign {
+  bool flip = false, steady = true;
 };
-Best best_of_starts(const Rows& z, const IcaParams& params, Work& work) {
-  const auto count = static_cast<std::size_t>(std::max(params.starts, 1));
-  std::vector<FastIcaRun> all(count);
-  work.parallel(count, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n)
-      all[n] =
-          fast_ica(z, starting_rotation(z.rows, static_cast<int>(n), params.seed), params.fast_ica, work);
-  });
-  // The largest negentropy; a run that did not converge counts 1 % less; then the first.
-  const auto worth = [](const FastIcaRun& run) { return run.negentropy * (run.converged ? 1 : 0.99); };
-  const auto best_of = [&](const std::vector<FastIcaRun>& runs) {
-    return *std::max_element(runs.begin(), runs.end(),
-                             [&](const FastIcaRun& a, const FastIcaRun& b) { return worth(a) < worth(b); });
-  };
-  Best best{leave_side_optimum(z, best_of(all), params.fast_ica, work), std::vector<bool>(z.rows, true)};
-  if (count == 1) return best;
-  // What lies around the best is looked at too; a better one found there is the best from then on.
-  for (int round = 0; round < 3; ++round) {
-    auto around = runs_around(z, best.run, params.fast_ica, work);
-    if (around.empty()) break;
-    all.insert(all.end(), around.begin(), around.end());
-    const FastIcaRun other = best_of(around);
-    if (worth(other) < 1.01 * worth(best.run)) break;
-    best.run = leave_side_optimum(z, other, params.fast_ica, work);
+Sign sign_of(double skew, const Rows& mixing, std::size_t column) {
+  constexpr double plain = 0.3, margin = 0.01;
+  double high = 0, low = 0;
+  for (std::size_t d = 0; d < mixing.rows; ++d) {
+    high = std::max(high, mixing(d, column));
+    low = std::max(low, -mixing(d, column));
   }
-  best.unique = unique_components(best.run, all);
-  return best;
+  const double size = std::fabs(skew);
+  const bool tied = std::min(high, low) > (1 - margin) * std::max(high, low);
+  return {size > plain ? skew < 0 : low > high,
+          size > plain + margin || (!tied && (size < plain - margin || (skew < 0) == (low > high)))};
 }
 
-// Rows of `rotation` in the order and with the signs that users see.
-Rows canonical(const Rows& rotation, const Whitened& white, std::vector<bool>& unique) {
+// Rows of `rotation` in the order and with the signs that users see; `steady`: whether a sign is sure.
+Rows canonical(const Rows& rotation, const Whitened& white, std::vector<bool>& unique,
+               std::vector<bool>& steady) {
   const Rows u = rotated(rotation, white.z);
   const Rows mixing = product(white.p, transposed(rotation));  // W⁻¹ = Wᵀ
   std::vector<double> energy(u.rows);
@@ -80,22 +67,21 @@ Rows canonical(const Rows& rotation, const Whitened& white, std::vector<bool>& u
   std::vector<bool> unique_in_order;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::size_t from = order[i];
-    const double skew = skewness(u.row(from), u.columns);
-    double largest = 0;
-    for (std::size_t d = 0; d < mixing.rows; ++d)
-      if (std::fabs(mixing(d, from)) > std::fabs(largest)) largest = mixing(d, from);
-    const bool flip = std::fabs(skew) > 0.3 ? skew < 0 : largest < 0;
-    for (std::size_t c = 0; c < out.columns; ++c) out(i, c) = flip ? -rotation(from, c) : rotation(from, c);
+    const Sign sign = sign_of(skewness(u.row(from), u.columns), mixing, from);
+    steady.push_back(sign.steady);
+    for (std::size_t c = 0; c < out.columns; ++c)
+      out(i, c) = sign.flip ? -rotation(from, c) : rotation(from, c);
     unique_in_order.push_back(unique[from]);
   }
   unique = unique_in_order;
   return out;
 }
 
-std::string list_of(const std::vector<bool>& unique) {
+// Those that aren't.
+std::string list_of(const std::vector<bool>& flags) {
   std::string text;
-  for (std::size_t i = 0; i < unique.size(); ++i)
-    if (!unique[i]) text += fmt::format("{}u{}", text.empty() ? "" : ", ", i + 1);
+  for (std::size_t i = 0; i < flags.size(); ++i)
+    if (!flags[i]) text += fmt::format("{}u{}", text.empty() ? "" : ", ", i + 1);
   return text;
 }
 
@@ -149,15 +135,22 @@ Decomposition decompose(const Rows& channels, const IcaParams& params, Work& wor
     throw Failure(
         error("too-few-frames", fmt::format("{} frame(s) are too few to decompose", channels.columns))
             .hinting("give clips of at least two frames"));
-  const Principal principal = principal_components(channels, work);
+  Principal principal = leading_components(channels, work);
   // What stays of an unchanging channel of size s after its mean is taken out is rounding, some 1e-16 s.
   double largest = 0;
   for (double x : principal.mean) largest = std::max(largest, std::fabs(x));
   if (principal.rank == 0 || principal.variance[0] <= 1e-28 * largest * largest)
     throw Failure(error("no-variance", "no channel changes over time")
                       .hinting("give a clip that moves, or other `joints`"));
-  const auto k = params.components > 0 ? static_cast<std::size_t>(params.components)
-                                       : count_for(principal, params.variance);
+  const auto wanted = [&] {
+    return params.components > 0 ? static_cast<std::size_t>(params.components)
+                                 : count_for(principal, params.variance);
+  };
+  std::size_t k = wanted();
+  if (k >= principal.rank) {
+    principal = principal_components(channels, work);
+    k = wanted();
+  }
   if (k > principal.rank)
     throw Failure(
         error("too-many-components",
@@ -172,14 +165,15 @@ Decomposition decompose(const Rows& channels, const IcaParams& params, Work& wor
   out.unique.assign(k, true);
   Rows rotation = identity(k);
   if (params.rotate && k > 1) {
-    Best best = best_of_starts(white.z, params, work);
+    BestStart best = best_of_starts(white.z, params.fast_ica, params.starts, params.seed, work);
     rotation = std::move(best.run.w);
     out.converged = best.run.converged;
     out.iterations = best.run.iterations;
     out.reached = best.run.reached;
     out.unique = std::move(best.unique);
   }
-  rotation = canonical(rotation, white, out.unique);
+  std::vector<bool> steady;
+  rotation = canonical(rotation, white, out.unique, steady);
   out.signals = rotated(rotation, white.z);
   out.mixing = product(white.p, transposed(rotation));
   out.unmixing = product(rotation, white.p_inverse);
@@ -196,6 +190,10 @@ Decomposition decompose(const Rows& channels, const IcaParams& params, Work& wor
                 fmt::format("the change of the components is still {:.2g} after {} iterations; wanted {:.2g}",
                             out.reached, out.iterations, params.fast_ica.tolerance))
             .hinting("raise `iterations` or `tolerance`, or ask for fewer `components`"));
+  if (const std::string others = list_of(steady); params.rotate && !others.empty())
+    work.report(warning("sign-not-sure", "which way round " + others +
+                                             " stands hangs on little: another `seed` may turn it round")
+                    .hinting("where an edit adds to it (translate, warp, copy_add), keep the `seed`"));
   if (const std::string others = list_of(out.unique); !others.empty())
     work.report(
         warning("not-unique", "the components " + others +

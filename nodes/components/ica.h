@@ -33,8 +33,8 @@ struct Decomposition {
 };
 // Errors: "too-few-frames", "no-variance", "too-many-components" (naming the rank). Warnings:
 // "not-converged", "not-unique" (naming the components that other optima of at least 0.9 of the negentropy
-// lack, optima.h). Order: by share of variance. Sign: positive skewness where |skewness| > 0.3, else the largest
-// |entry| of the mixing column positive.
+// lack, optima.h), "sign-not-sure" (naming the components). Order: by share of variance. Sign: positive
+// skewness where |skewness| > 0.3, else the largest |entry| of the mixing column positive.
 Decomposition decompose(const Rows& channels, const IcaParams& params, Work& work);
 
 // Joined clips of one kind and rate, frame after frame. `space` is theirs (space_of_motions,

@@ -51,6 +51,17 @@ void compare_skeletons(const ChannelSpace& space, const std::vector<std::shared_
   }
 }
 
+// Names the clip that differs from the first.
+void check_rates(const std::vector<double>& fps) {
+  for (std::size_t i = 1; i < fps.size(); ++i) {
+    try {
+      check_same_rate(fps.front(), fps[i], "clip 0", "clip " + std::to_string(i));
+    } catch (const Failure& failure) {
+      throw Failure(Diagnostic(failure.diagnostic()).at_port("motions"));
+    }
+  }
+}
+
 void decompose_inputs(Compute& node) {
   const Params& params = node.params();
   const auto values = node.values("motions");
@@ -62,10 +73,10 @@ void decompose_inputs(Compute& node) {
                       .hinting("link clips of one kind"));
   if (!motions.empty()) {
     const auto given = motions;
-    for (auto& motion : motions) {
-      check_same_rate(motions.front()->fps(), motion->fps(), "motions", "motions");
-      motion = with_moving_root(motion, node.work());
-    }
+    std::vector<double> fps;
+    for (const auto& motion : motions) fps.push_back(motion->fps());
+    check_rates(fps);
+    for (auto& motion : motions) motion = with_moving_root(motion, node.work());
     const auto chosen =
         chosen_joints(params.text("joints"), motions.front()->skeleton(), "joints", node.work());
     ChannelSpace space = space_of_motions(representation_from(params.text("representation")), motions, chosen,
@@ -75,7 +86,9 @@ void decompose_inputs(Compute& node) {
                 components_of_motions(std::move(space), motions, ica_params(params), node.work()));
     return;
   }
-  for (const auto& one : points) check_same_rate(points.front()->fps, one->fps, "motions", "motions");
+  std::vector<double> fps;
+  for (const auto& one : points) fps.push_back(one->fps);
+  check_rates(fps);
   const std::string& how = params.text("stabilise");
   const auto chosen = chosen_names(params.text("joints"), points.front()->labels, "joints", node.work());
   ChannelSpace space = space_of_points(points,
@@ -92,7 +105,7 @@ NodeType ica_node() {
   NodeType type;
   type.name = "ICA";
   type.category = "components";
-  type.code_version = 4;
+  type.code_version = 5;
   type.help =
       "Splits one or several clips, joined, into independent components: signals over time, each moving the "
       "whole body in its own way.";

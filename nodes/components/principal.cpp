@@ -59,28 +59,42 @@ Rows scatter_along(const Rows& axes, const Rows& channels, const std::vector<dou
 
 }  // namespace
 
+namespace {
+
+// Decomposes the axes from `first` on, in the space of these alone. Returns the first axis under 1e-8 of its
+// variance: a covariance knows small variances only to 1e-16 of the largest.
+std::size_t decompose_from(std::size_t first, Principal& out, const Rows& channels, Work& work) {
+  const std::size_t d = channels.rows, m = d - first;
+  Rows axes(m, d);
+  std::copy_n(out.axes.row(first), m * d, axes.data.data());
+  const Eigenpairs pairs = symmetric_eigen(scatter_along(axes, channels, out.mean, work));
+  const Rows turned = first > 0 ? product(pairs.vectors, axes) : pairs.vectors;
+  std::copy_n(turned.data.data(), m * d, out.axes.row(first));
+  for (std::size_t i = 0; i < m; ++i)
+    out.variance[first + i] = std::max(0.0, pairs.values[i]) / static_cast<double>(channels.columns);
+  std::size_t next = first + 1;
+  while (next < d && out.variance[next] > 1e-8 * out.variance[first]) ++next;
+  return next;
+}
+
+}  // namespace
+
+Principal leading_components(const Rows& channels, Work& work) {
+  const std::size_t d = channels.rows;
+  Principal out{means_of(channels, work), std::vector<double>(d), identity(d), 0};
+  const std::size_t exact = decompose_from(0, out, channels, work);
+  while (out.rank < exact && out.variance[out.rank] > 0) ++out.rank;
+  return out;
+}
+
 Principal principal_components(const Rows& channels, Work& work) {
   const std::size_t d = channels.rows;
-  Principal out;
-  out.mean = means_of(channels, work);
-  out.axes = identity(d);
-  out.variance.resize(d);
-  // A covariance knows its small variances only to 1e-16 of the largest. So the axes under 1e-8 of the first
-  // are decomposed once more, in the space of these axes alone, where they are the large ones; and so on.
-  for (std::size_t first = 0; first < d;) {
-    const std::size_t m = d - first;
-    Rows axes(m, d);
-    std::copy_n(out.axes.row(first), m * d, axes.data.data());
-    const Eigenpairs pairs = symmetric_eigen(scatter_along(axes, channels, out.mean, work));
-    const Rows turned = first > 0 ? product(pairs.vectors, axes) : pairs.vectors;
-    std::copy_n(turned.data.data(), m * d, out.axes.row(first));
-    for (std::size_t i = 0; i < m; ++i)
-      out.variance[first + i] = std::max(0.0, pairs.values[i]) / static_cast<double>(channels.columns);
-    std::size_t next = first + 1;
-    while (next < d && out.variance[next] > 1e-8 * out.variance[first]) ++next;
-    if (next < d && out.variance[next] <= 1e-22 * out.variance[0]) break;  // the rest is rounding
-    first = next;
-  }
+  Principal out = leading_components(channels, work);
+  // The small axes are decomposed once more, in a space where they are the large ones; and so on, until the
+  // rest is rounding.
+  for (std::size_t next = out.rank; next > 0 && next < d && out.variance[next] > 1e-22 * out.variance[0];)
+    next = decompose_from(next, out, channels, work);
+  out.rank = 0;
   while (out.rank < d && out.variance[out.rank] > 1e-20 * out.variance[0]) ++out.rank;
   return out;
 }

@@ -22,13 +22,14 @@ std::string missing_frames(const Points& points, int label) {
 
 }  // namespace
 
-std::vector<int> labels_of(const std::vector<std::string>& wanted, const Points& points) {
+std::vector<int> labels_of(const std::vector<std::string>& wanted, const Points& points,
+                           std::string_view clip) {
   std::vector<int> out;
   for (const std::string& label : wanted) {
     const auto found = std::find(points.labels.begin(), points.labels.end(), label);
     if (found == points.labels.end())
       throw Failure(
-          error("label-missing", "a clip has no point '" + label + "'")
+          error("label-missing", std::string(clip) + " has no point '" + label + "'")
               .at_port("motions")
               .at_joint(label)
               .hinting("give clips with the same labels, or choose those they share with `joints`"));
@@ -52,12 +53,13 @@ std::vector<Move> moves_of(const ChannelSpace& space, const Points& points) {
   return moves;
 }
 
-void check_whole(const Points& points, const std::vector<int>& labels) {
+void check_whole(const Points& points, const std::vector<int>& labels, std::string_view clip) {
   for (int label : labels) {
     const std::string frames = missing_frames(points, label);
     if (frames.empty()) continue;
     throw Failure(
-        error("gaps", "the point '" + points.labels[label] + "' is missing at frames " + frames)
+        error("gaps", "the point '" + points.labels[label] + "' of " + std::string(clip) +
+                          " is missing at frames " + frames)
             .at_port("motions")
             .at_joint(points.labels[label])
             .hinting("fill longer gaps with Load's `max_gap`, or leave the point out with `joints`"));

@@ -15,8 +15,9 @@ struct Move {
 std::vector<Move> moves_of(const ChannelSpace& space, const Points& points);
 
 // The tracks of these labels. Throws Failure ("label-missing").
-std::vector<int> labels_of(const std::vector<std::string>& wanted, const Points& points);
+std::vector<int> labels_of(const std::vector<std::string>& wanted, const Points& points,
+                           std::string_view clip = "the clip");
 // Throws Failure ("gaps") naming the first of these tracks that has gaps, and its frames.
-void check_whole(const Points& points, const std::vector<int>& labels);
+void check_whole(const Points& points, const std::vector<int>& labels, std::string_view clip = "the clip");
 
 }  // namespace kinegraph

@@ -10,6 +10,7 @@
 #include "nodes/components/principal.h"
 #include "nodes/components/rebuild.h"
 #include "nodes/files/motion_file.h"
+#include "nodes/motion/resample.h"
 #include "nodes/time/trim.h"
 #include "tests/mocap.h"
 #include "tests/nodes/files/plain_files.h"
@@ -78,6 +79,57 @@ REAL_PAIR(16_31, 17_03);
 REAL_PAIR(07_05, 17_03);
 REAL_PAIR(16_45, 17_03);
 REAL_PAIR(16_45, 16_31);
+
+// One clip of 2,783 frames.
+void decompose_boxing(benchmark::State& state) {
+  if (!std::filesystem::exists(mocap("README.md"))) {
+    state.SkipWithError("no motion capture");
+    return;
+  }
+  Alone work;
+  const auto clip = real_motion("17_10");
+  const std::vector<bool> all(static_cast<std::size_t>(clip->joints()), true);
+  const ChannelSpace space = space_of_motions(Representation::points, {clip}, all, true, {}, work);
+  const Rows x = channels_of(space, *clip, {}, work);
+  IcaParams params;
+  params.components = 12;
+  for (auto _ : state) benchmark::DoNotOptimize(decompose(x, params, work));
+}
+BENCHMARK(decompose_boxing)->Unit(benchmark::kMillisecond);
+
+// Twelve CMU clips joined, at 120 frames a second and brought to 200: 6,834 and 11,379 frames.
+void decompose_long_clips(benchmark::State& state, int starts) {
+  if (!std::filesystem::exists(mocap("README.md"))) {
+    state.SkipWithError("no motion capture");
+    return;
+  }
+  Alone work;
+  std::vector<std::shared_ptr<const Motion>> clips;
+  for (const char* name : {"02_01", "02_04", "05_03", "07_05", "09_06", "16_05", "16_15", "16_31", "16_45",
+                           "17_03", "17_10", "35_01"})
+    clips.push_back(std::make_shared<const Motion>(
+        resampled(*real_motion(name), static_cast<double>(state.range(0)), work)));
+  const std::vector<bool> all(static_cast<std::size_t>(clips[0]->joints()), true);
+  const ChannelSpace space = space_of_motions(Representation::points, clips, all, true, {}, work);
+  std::vector<Rows> parts;
+  std::size_t frames = 0;
+  for (const auto& clip : clips) {
+    parts.push_back(channels_of(space, *clip, {}, work));
+    frames += clip->frames();
+  }
+  Rows x(parts.front().rows, frames);
+  std::size_t at = 0;
+  for (const Rows& part : parts) {
+    for (std::size_t i = 0; i < x.rows; ++i) std::copy_n(part.row(i), part.columns, x.row(i) + at);
+    at += part.columns;
+  }
+  IcaParams params;
+  params.components = 12;
+  params.starts = starts;
+  for (auto _ : state) benchmark::DoNotOptimize(decompose(x, params, work));
+}
+BENCHMARK_CAPTURE(decompose_long_clips, one_start, 1)->Unit(benchmark::kMillisecond)->Arg(120)->Arg(200);
+BENCHMARK_CAPTURE(decompose_long_clips, default_starts, 8)->Unit(benchmark::kMillisecond)->Arg(120)->Arg(200);
 
 void principal_and_whitening(benchmark::State& state) {
   const Rows x = mixed(12, 10000);

@@ -216,7 +216,9 @@ TEST(IcaNode, RefusesWhatCantBeDecomposed) {
   NodeInMemory rates(ica_node());
   const Diagnostic rate = rates.link("motions", walk).link("motions", gait("walk", 1, 30)).refusal();
   EXPECT_EQ(rate.code, "rate-mismatch");
-  EXPECT_THAT(rate.hint, HasSubstr("Resample"));
+  EXPECT_EQ(rate.port, "motions");
+  EXPECT_THAT(rate.message, HasSubstr("clip 0 has 60 frames per second and clip 1 has 30"));
+  EXPECT_THAT(rate.hint, HasSubstr("put a Resample node with fps 60 before clip 1"));
 }
 
 // Five labels on a shaking and travelling head, two of which also move on their own.
@@ -276,12 +278,12 @@ TEST(IcaOfPoints, RefusesGapsAndOtherLabels) {
   for (std::size_t t : {4, 5, 6, 11}) gaps.set_missing(3, t);
   const Diagnostic gap = node.link("motions", gaps).refusal();
   EXPECT_EQ(gap.code, "gaps");
-  EXPECT_THAT(gap.message, HasSubstr("'brow' is missing at frames 4 to 6, 11"));
+  EXPECT_THAT(gap.message, HasSubstr("'brow' of the clip is missing at frames 4 to 6, 11"));
   NodeInMemory without(ica_node());
   without.link("motions", gaps).set("joints", "-brow").set("components", 1).run();
   NodeInMemory labels(ica_node());
   labels.link("motions", face(50, false)).link("motions", face(50, false, {"a", "b", "c", "brow", "chin"}));
-  EXPECT_THAT(labels.refusal().message, HasSubstr("no point 'jaw'"));
+  EXPECT_THAT(labels.refusal().message, HasSubstr("clip 1 has no point 'jaw'"));
   NodeInMemory mixed(ica_node());
   mixed.link("motions", face(50, false)).link("motions", gait("walk", 1));
   EXPECT_EQ(mixed.refusal().code, "mixed-inputs");
