@@ -75,6 +75,7 @@ std::shared_ptr<const ComponentPicture> make_component_picture(const ValuePtr& v
     picture->seams.push_back(static_cast<double>(components->segments[i].start) / picture->frames);
   const ComponentSegment part =
       start_of(components->segments.front(), static_cast<std::size_t>(shown_seconds * components->fps));
+  const auto cadences = cadences_of(*components);
   for (std::size_t entry = 0; entry < components->count(); ++entry) {
     work.check();
     ComponentFigure figure;
@@ -84,8 +85,7 @@ std::shared_ptr<const ComponentPicture> make_component_picture(const ValuePtr& v
       // Without a figure the signal and caption still tell what there is.
     }
     figure.share = QString("%1 %").arg(100 * components->shares[entry], 0, 'f', 1);
-    if (const auto cadence = cadence_of(*components, entry))
-      figure.cadence = QString("%1 Hz").arg(*cadence, 0, 'f', 1);
+    if (cadences[entry]) figure.cadence = QString("%1 Hz").arg(cadences[entry]->hertz, 0, 'f', 1);
     QStringList words;
     const std::vector<Moved> moved = moved_by(*components, entry);
     for (std::size_t i = 0; i < std::min(named_joints, moved.size()); ++i)

@@ -35,11 +35,11 @@ struct Moment {
 // phases of its cycle or of half of it, as the strip would seem to stand still then.
 int count_of_moments(const Components& components) {
   constexpr int usual = 12, least = 10, most = 14;
-  for (std::size_t i = 0; i < components.count(); ++i) {  // by variance: the first that swings
-    const auto cadence = cadence_of(components, i);
+  for (const auto& cadence : cadences_of(components)) {  // by variance: the first that swings
     if (!cadence) continue;
     const auto off_phase = [&](int count) {
-      const double halves = 2 * *cadence * static_cast<double>(components.frames()) / components.fps / count;
+      const double halves =
+          2 * cadence->hertz * static_cast<double>(components.frames()) / components.fps / count;
       return std::fabs(halves - std::round(halves));
     };
     int best = usual;
@@ -130,9 +130,9 @@ double tallest_of(const Components& components, const std::vector<Moment>& shown
       if (moment.segment != s) continue;
       const Pose pose = pose_at(motion, moment.own_frame);
       for (int joint : figure.joints())
-        highest = std::max(highest, pose.positions[static_cast<std::size_t>(joint)].y);
+        highest = std::max(highest, pose.positions[static_cast<std::size_t>(joint)].y + figure.reach(joint));
     }
-    tallest = std::max(tallest, highest + 0.07 * figure.height());
+    tallest = std::max(tallest, highest);
   }
   return tallest;
 }
@@ -280,12 +280,16 @@ class Painter {
   double tallest_;
 };
 
-// "48 % of the variance · 0.86 Hz · moves RightHand, LeftHand, Head"
-std::string caption(const Components& components, std::size_t entry) {
+// "48 % of the variance · 0.86 Hz in segment 0 · moves trunk and arms, farthest RightHand, LeftHand"
+std::string caption(const Components& components, std::size_t entry, const std::optional<Cadence>& cadence) {
   std::string text = fmt::format("{:.1f} % of the variance", 100 * components.shares[entry]);
-  if (const auto cadence = cadence_of(components, entry)) text += fmt::format(" · {:.2f} Hz", *cadence);
-  const auto moved = moved_by(components, entry);
-  for (std::size_t i = 0; i < moved.size() && i < 3; ++i) text += (i ? ", " : " · moves ") + moved[i].label;
+  if (cadence) text += " · " + text_of(*cadence, components);
+  if (const std::string what = what_moves(components, entry); !what.empty()) text += " · moves " + what;
+  if (!regions_moved_by(components, entry).empty()) {
+    const auto moved = moved_by(components, entry);
+    for (std::size_t i = 0; i < moved.size() && i < 2; ++i)
+      text += (i ? ", " : ", farthest ") + moved[i].label;
+  }
   if (!components.unique[entry]) text += " · not unique";
   return text;
 }
@@ -320,8 +324,10 @@ Canvas draw_components(const Components& components, const std::string& title) {
     painter.signals(entries, y + 40 + figure_height, entries.size() == components.count());
     y += 40 + figure_height + signal_height + 22;
   };
+  const auto cadences = cadences_of(components);
   for (std::size_t i = 0; i < components.count(); ++i)
-    row(fmt::format("u{}", i + 1), theme::series(static_cast<int>(i)), caption(components, i), {i});
+    row(fmt::format("u{}", i + 1), theme::series(static_cast<int>(i)), caption(components, i, cadences[i]),
+        {i});
   row("all", theme::ink, "all of them together", all_entries(components));
   painter.time_axes(y - 4);
   canvas.set_height(y + 36);

@@ -18,6 +18,7 @@ struct Component {
   const Metric* emotion = nullptr;
   const Metric* variance = nullptr;
   const Metric* cadence = nullptr;
+  const Metric* segment = nullptr;  // where the cadence was measured; null: there is only one
   std::vector<const Metric*> regions, moves;
 };
 
@@ -35,6 +36,7 @@ std::vector<Component> components_in(const Metrics& metrics) {
     if (what == "d_emotion") out.back().emotion = &metric;
     if (what == "variance") out.back().variance = &metric;
     if (what == "cadence") out.back().cadence = &metric;
+    if (what == "cadence_segment") out.back().segment = &metric;
     if (what.starts_with("d_region.")) out.back().regions.push_back(&metric);
     if (what.starts_with("moves.")) out.back().moves.push_back(&metric);
   }
@@ -141,8 +143,10 @@ Canvas draw_meaning(const Metrics& metrics, const std::string& title) {
     };
     if (one.variance && one.variance->value)
       say(fmt::format("{:.1f} % of the variance", 100 * *one.variance->value), theme::ink);
-    say(one.cadence && one.cadence->value ? fmt::format("{:.2f} Hz", *one.cadence->value) : "no steady beat",
-        theme::ink);
+    std::string beat =
+        one.cadence && one.cadence->value ? fmt::format("{:.2f} Hz", *one.cadence->value) : "no steady beat";
+    if (one.segment && one.segment->value) beat += fmt::format(" in segment {:g}", *one.segment->value);
+    say(beat, theme::ink);
     if (const std::string mended = most_mended(one.regions); !mended.empty()) say(mended, theme::ink);
     for (const Metric* move : one.moves) {
       std::string much;

@@ -1,12 +1,16 @@
 #include "nodes/components/component_meaning.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <set>
 
 #include "nodes/components/alignment.h"
 #include "nodes/components/rebuild.h"
+#include "nodes/motion/body.h"
 #include "nodes/motion/joint_pattern.h"
 
 namespace kinegraph {
@@ -97,32 +101,71 @@ std::vector<std::optional<double>> emotion_distances(const Components& component
 
 }  // namespace
 
-std::optional<double> cadence_of(const Components& components, std::size_t entry) {
-  double strongest = 0;
+namespace {
+
+// The period of a segment's signal in frames, 0 = none, and how much of its variance repeats.
+struct Beat {
   std::size_t period = 0;
-  for (const ComponentSegment& segment : components.segments) {
-    const double* u = components.signals.row(entry) + segment.start;
-    double mean = 0;
-    for (std::size_t t = 0; t < segment.frames(); ++t) mean += u[t] / static_cast<double>(segment.frames());
-    std::vector<double> correlation(segment.frames() * 2 / 3);
-    for (std::size_t lag = 0; lag < correlation.size(); ++lag) {
-      double sum = 0;
-      for (std::size_t t = 0; t + lag < segment.frames(); ++t) sum += (u[t] - mean) * (u[t + lag] - mean);
-      correlation[lag] = sum / static_cast<double>(segment.frames() - lag);
-    }
-    std::size_t lag = 0, best = 0;
-    while (lag < correlation.size() && correlation[lag] > 0) ++lag;
-    for (lag = std::max<std::size_t>(lag, 1); lag + 1 < correlation.size(); ++lag)
-      if (correlation[lag] >= correlation[lag - 1] && correlation[lag] >= correlation[lag + 1] &&
-          (best == 0 ||
-           correlation[lag] > 1.1 * correlation[best]))  // a multiple of the period must be clearly better
-        best = lag;
-    if (best == 0 || correlation[best] < 0.3 * correlation[0] || correlation[best] <= strongest) continue;
-    strongest = correlation[best];
-    period = best;
+  double strength = 0;
+};
+Beat beat_of(const double* u, std::size_t frames) {
+  double mean = 0;
+  for (std::size_t t = 0; t < frames; ++t) mean += u[t] / static_cast<double>(frames);
+  std::vector<double> correlation(frames * 2 / 3);
+  for (std::size_t lag = 0; lag < correlation.size(); ++lag) {
+    double sum = 0;
+    for (std::size_t t = 0; t + lag < frames; ++t) sum += (u[t] - mean) * (u[t + lag] - mean);
+    correlation[lag] = sum / static_cast<double>(frames - lag);
   }
-  if (period == 0 || strongest <= 1e-12) return std::nullopt;
-  return components.fps / static_cast<double>(period);
+  std::size_t lag = 0, best = 0;
+  while (lag < correlation.size() && correlation[lag] > 0) ++lag;
+  for (lag = std::max<std::size_t>(lag, 1); lag + 1 < correlation.size(); ++lag)
+    if (correlation[lag] >= correlation[lag - 1] && correlation[lag] >= correlation[lag + 1] &&
+        (best == 0 ||
+         correlation[lag] > 1.1 * correlation[best]))  // a multiple of the period must be clearly better
+      best = lag;
+  if (best == 0 || correlation[best] < 0.3 * correlation[0] || correlation[best] <= 1e-12) return {};
+  return {best, correlation[best]};
+}
+
+// The joints of a region and all that hangs on them.
+void mark(const Skeleton& skeleton, int joint, std::size_t region, std::vector<std::size_t>& of) {
+  if (joint < 0) return;
+  of[static_cast<std::size_t>(joint)] = region;
+  for (int child : skeleton.children(joint)) mark(skeleton, child, region, of);
+}
+
+}  // namespace
+
+std::vector<std::optional<Cadence>> cadences_of(const Components& components) {
+  const std::size_t k = components.count(), segments = components.segments.size();
+  std::vector<std::vector<Beat>> beats(segments, std::vector<Beat>(k));
+  std::vector<double> repeats(segments);
+  for (std::size_t s = 0; s < segments; ++s) {
+    const ComponentSegment& segment = components.segments[s];
+    for (std::size_t i = 0; i < k; ++i) {
+      beats[s][i] = beat_of(components.signals.row(i) + segment.start, segment.frames());
+      repeats[s] += components.shares[i] * beats[s][i].strength;
+    }
+  }
+  std::size_t common = 0;
+  const double most = segments > 0 ? *std::max_element(repeats.begin(), repeats.end()) : 0;
+  while (common + 1 < segments && repeats[common] < 0.5 * most) ++common;
+  std::vector<std::optional<Cadence>> out(k);
+  for (std::size_t i = 0; segments > 0 && i < k; ++i) {
+    std::size_t at = common;
+    for (std::size_t s = 0; beats[at][i].period == 0 && s < segments; ++s)
+      if (beats[s][i].period > 0) at = s;
+    if (beats[at][i].period > 0)
+      out[i] = Cadence{components.fps / static_cast<double>(beats[at][i].period), at};
+  }
+  return out;
+}
+
+std::string text_of(const Cadence& cadence, const Components& components) {
+  std::string text = fmt::format("{:.2f} Hz", cadence.hertz);
+  if (components.segments.size() > 1) text += fmt::format(" in segment {}", cadence.segment);
+  return text;
 }
 
 std::vector<Moved> moved_by(const Components& components, std::size_t entry) {
@@ -143,6 +186,67 @@ std::vector<Moved> moved_by(const Components& components, std::size_t entry) {
   std::stable_sort(out.begin(), out.end(),
                    [](const Moved& a, const Moved& b) { return a.amount > b.amount; });
   return out;
+}
+
+std::vector<Moved> regions_moved_by(const Components& components, std::size_t entry) {
+  const ChannelSpace& space = components.space;
+  if (!space.of_motions) return {};
+  const Skeleton& skeleton = *space.skeleton;
+  const Body body = find_body(skeleton);
+  if (body.pelvis < 0 || (body.arms.empty() && body.legs.empty())) return {};
+  const std::array<const char*, 4> names{"trunk", "head", "arms", "legs"};
+  std::vector<std::size_t> region(skeleton.joints.size(), 0);
+  if (!body.neck.empty() || body.head >= 0)
+    mark(skeleton, body.neck.empty() ? body.head : body.neck.front(), 1, region);
+  for (const Arm& arm : body.arms) mark(skeleton, arm.upper, 2, region);
+  for (const Leg& leg : body.legs) mark(skeleton, leg.hip, 3, region);
+
+  const std::size_t per = space.per_label();
+  const double* u = components.signals.row(entry);
+  double square = 0;
+  for (std::size_t t = 0; t < components.frames(); ++t)
+    square += u[t] * u[t] / static_cast<double>(components.frames());
+  const bool points = space.representation == Representation::points;
+  std::array<double, 4> sums{}, counts{};
+  for (std::size_t i = 0; i < space.joints.size(); ++i) {
+    const int joint = space.joints[i], parent = skeleton.joints[joint].parent;
+    const auto before = std::find(space.joints.begin(), space.joints.end(), parent);
+    const double length = skeleton.link_length(joint);
+    if (points && (before == space.joints.end() || length < 1e-6)) continue;
+    double turn = 0;
+    for (std::size_t c = 0; c < per; ++c) {
+      double part = components.mixing(i * per + c, entry);
+      if (points)
+        part = (part -
+                components.mixing(static_cast<std::size_t>(before - space.joints.begin()) * per + c, entry)) /
+               length;
+      turn += part * part;
+    }
+    // A link turns with the joint that it hangs on.
+    const std::size_t r = region[static_cast<std::size_t>(points ? parent : joint)];
+    sums[r] += turn * (space.representation == Representation::quaternions ? 4 : 1);
+    counts[r] += 1;
+  }
+  std::vector<Moved> out;
+  for (std::size_t r = 0; r < names.size(); ++r)
+    if (counts[r] > 0) out.push_back({names[r], std::sqrt(square * sums[r] / counts[r])});
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Moved& a, const Moved& b) { return a.amount > b.amount; });
+  return out;
+}
+
+std::string what_moves(const Components& components, std::size_t entry) {
+  std::string text;
+  if (const auto regions = regions_moved_by(components, entry); !regions.empty()) {
+    for (const Moved& region : regions)
+      if (region.amount > 0 && region.amount >= regions.front().amount * 2 / 3)
+        text += (text.empty() ? "" : " and ") + region.label;
+    return text;
+  }
+  const auto moved = moved_by(components, entry);
+  for (std::size_t i = 0; i < moved.size() && i < 3; ++i)
+    if (moved[i].amount > 0) text += (text.empty() ? "" : ", ") + moved[i].label;
+  return text;
 }
 
 ComponentMeaning component_meaning(const Components& components, const MeaningParams& params, Work& work) {

@@ -13,9 +13,18 @@
 
 namespace kinegraph {
 
-// How often the signal repeats, in Hz: the highest peak of its autocorrelation after it first falls below
-// zero, in the segment where that is strongest; none where no segment's peak reaches 0.3 of its variance.
-std::optional<double> cadence_of(const Components& components, std::size_t entry);
+// How often signals repeat, in Hz: the highest peak of a signal's autocorrelation after it first falls below
+// zero, if it reaches 0.3 of its variance. Clips that are joined have beats of their own, so all components
+// are measured in one segment: the first in which at least half as much of the variance repeats as in any.
+// Only a component that has no beat there takes it from another segment.
+struct Cadence {
+  double hertz = 0;
+  std::size_t segment = 0;  // where it was measured
+};
+// A component's, or none.
+std::vector<std::optional<Cadence>> cadences_of(const Components& components);
+// "0.92 Hz", with several segments "0.92 Hz in segment 1".
+std::string text_of(const Cadence& cadence, const Components& components);
 
 // How far a component moves each joint or point: root mean square over its signals, in metres, for rotations
 // in radians (for quaternions in parts of the unit sphere). The largest first.
@@ -24,6 +33,13 @@ struct Moved {
   double amount = 0;
 };
 std::vector<Moved> moved_by(const Components& components, std::size_t entry);
+
+// The same of the body's regions: by what angle their links turn, root mean square, in radians. "trunk",
+// "head", "arms" and "legs", those that there are; empty for Points and for skeletons without a body.
+std::vector<Moved> regions_moved_by(const Components& components, std::size_t entry);
+// What a caption names: the regions that turn at least two thirds as much as the first, "trunk and arms";
+// where there are no regions the three joints or points that move most.
+std::string what_moves(const Components& components, std::size_t entry);
 
 struct MeaningParams {
   std::vector<std::pair<std::int64_t, std::int64_t>>

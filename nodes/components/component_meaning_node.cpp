@@ -23,6 +23,7 @@ void explain(Compute& node) {
 
   Metrics out;
   const char* unit = components.space.representation == Representation::points ? "m" : "rad";
+  const auto cadences = cadences_of(components);
   for (std::size_t i = 0; i < components.count(); ++i) {
     const std::string u = "u" + std::to_string(i + 1) + ".";
     out.all.push_back({u + "d_emotion", meaning.d_emotion[i], ""});
@@ -30,7 +31,13 @@ void explain(Compute& node) {
       out.all.push_back(
           {joint_metric_name(u + "d_region", settings.regions[r].first), meaning.d_region[r][i], "m"});
     out.all.push_back({u + "variance", components.shares[i], ""});
-    out.all.push_back({u + "cadence", cadence_of(components, i), "Hz"});
+    std::optional<double> hertz, segment;
+    if (cadences[i]) {
+      hertz = cadences[i]->hertz;
+      segment = static_cast<double>(cadences[i]->segment);
+    }
+    out.all.push_back({u + "cadence", hertz, "Hz"});
+    if (components.segments.size() > 1) out.all.push_back({u + "cadence_segment", segment, ""});
     const auto moved = moved_by(components, i);
     for (std::size_t m = 0; m < moved.size() && m < 3; ++m)
       out.all.push_back({joint_metric_name(u + "moves", moved[m].label), moved[m].amount, unit});
@@ -51,8 +58,10 @@ NodeType component_meaning_node() {
   type.source = "Cao et al. 2003 §4.3";
   type.keywords = {"emotion", "style", "region", "caption", "semantic"};
   type.input("components", {"Components"}, "What ICA found.");
-  type.output("metrics", "Metrics",
-              "u1.d_emotion, u1.d_region.NAME, u1.variance, u1.cadence, u1.moves.JOINT, …");
+  type.output(
+      "metrics", "Metrics",
+      "u1.d_emotion, u1.d_region.NAME, u1.variance, u1.cadence (of u1.cadence_segment, the same one for all "
+      "that have a beat in it), u1.moves.JOINT, …");
   type.param("pairs", list(tuple({integer(0).between(0, 10000), integer(1).between(0, 10000)})),
              "Segments with the same action and different emotion, from 0. Empty: the first two.");
   type.param(
@@ -62,7 +71,7 @@ NodeType component_meaning_node() {
   type.param("emotion", std::move(emotion),
              "The components that carry the emotion. Empty: the one with the largest d_emotion.");
   type.param("regions", table(pattern("*")), "Parts of the body: a name and a pattern of joints each.");
-  type.code_version = 2;
+  type.code_version = 3;
   type.compute = explain;
   return type;
 }

@@ -20,13 +20,10 @@ std::string listed(const std::vector<std::string>& names, std::size_t most) {
   return text;
 }
 
-std::string caption(const Components& components, std::size_t entry) {
+std::string caption(const Components& components, std::size_t entry, const std::optional<Cadence>& cadence) {
   std::string text = fmt::format("{:.1f} % of the variance", 100 * components.shares[entry]);
-  if (const auto cadence = cadence_of(components, entry)) text += fmt::format(", {:.2g} Hz", *cadence);
-  std::vector<std::string> names;
-  for (const Moved& moved : moved_by(components, entry))
-    if (names.size() < 3 && moved.amount > 0) names.push_back(moved.label);
-  if (!names.empty()) text += ", moves " + listed(names, 3);
+  if (cadence) text += ", " + text_of(*cadence, components);
+  if (const std::string what = what_moves(components, entry); !what.empty()) text += ", moves " + what;
   if (!components.unique[entry]) text += "; not unique";
   return text;
 }
@@ -38,8 +35,9 @@ Lines lines_of(const Components& components) {
   out.emplace_back("components", fmt::format("{} {} of {}, {:.1f} % of the variance", components.count(),
                                              components.method == "pca" ? "principal" : "independent",
                                              name_of(components.space.representation), 100 * explained));
+  const auto cadences = cadences_of(components);
   for (std::size_t i = 0; i < components.count(); ++i)
-    out.emplace_back(fmt::format("u{}", i + 1), caption(components, i));
+    out.emplace_back(fmt::format("u{}", i + 1), caption(components, i, cadences[i]));
   if (components.method != "pca")
     out.emplace_back(
         "found by",
@@ -48,7 +46,7 @@ Lines lines_of(const Components& components) {
                     components.iterations, components.reached, components.tolerance));
   for (std::size_t s = 0; s < components.segments.size(); ++s) {
     const std::size_t frames = components.segments[s].frames();
-    out.emplace_back(fmt::format("clip {}", s),
+    out.emplace_back(fmt::format("segment {}", s),
                      fmt::format("{} frames at {:.6g} a second, {:.3g} s", frames, components.fps,
                                  static_cast<double>(frames) / components.fps));
   }

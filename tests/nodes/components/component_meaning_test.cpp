@@ -91,11 +91,67 @@ TEST(ComponentMeaningOf, MeasuresWhatEachAddsToARegion) {
 
 TEST(ComponentMeaningOf, FindsCadenceAndWhatMoves) {
   const Components c = three();
-  EXPECT_NEAR(*cadence_of(c, 1), 2, 0.05);
+  EXPECT_NEAR(cadences_of(c)[1]->hertz, 2, 0.05);
   const auto moved = moved_by(c, 2);
   EXPECT_EQ(moved[0].label, "brow");
   EXPECT_NEAR(moved[0].amount, 0.5 * rms(c, 2), 1e-12);
   EXPECT_EQ(moved[1].label, "ear");
+}
+
+// Joined clips have beats of their own; numbers beside each other are of one of them.
+TEST(ComponentMeaningOf, MeasuresAllCadencesInOneSegment) {
+  Components c = three();
+  const auto swing = [&](std::size_t i, std::size_t start, double period, double size) {
+    for (std::size_t t = start; t < start + 100; ++t)
+      c.signals(i, t) = size * sine(2 * pi * static_cast<double>(t - start) / period);
+  };
+  swing(0, 0, 25, 1);  // 2 Hz in the first
+  swing(1, 0, 25, 1);
+  swing(0, 100, 20, 0.8);
+  swing(1, 100, 20, 1.3);  // 2.5 Hz in the second, where the second component alone is stronger
+  swing(2, 0, 1e9, 0);
+  swing(2, 100, 20, 1);  // still in the first
+  const auto cadences = cadences_of(c);
+  for (std::size_t i : {0, 1}) {
+    ASSERT_TRUE(cadences[i]);
+    EXPECT_NEAR(cadences[i]->hertz, 2, 0.05) << "u" << i + 1;
+    EXPECT_EQ(cadences[i]->segment, 0u);
+  }
+  ASSERT_TRUE(cadences[2]);
+  EXPECT_NEAR(cadences[2]->hertz, 2.5, 0.05);
+  EXPECT_EQ(cadences[2]->segment, 1u);
+  EXPECT_EQ(text_of(*cadences[2], c), "2.50 Hz in segment 1");
+  NodeInMemory node(component_meaning_node());
+  node.link("components", c).run();
+  const auto& metrics = node.out<Metrics>("metrics");
+  EXPECT_EQ(metrics.find("u1.cadence_segment")->value, 0);
+  EXPECT_EQ(metrics.find("u3.cadence_segment")->value, 1);
+}
+
+// Regions of the body, by how much their links turn: what hangs on a limb is only carried along.
+TEST(ComponentMeaningOfMotions, NamesTheRegionsThatMove) {
+  Motion still = gait("walk", 1);
+  for (int joint = 0; joint < still.joints(); ++joint)
+    for (std::size_t t = 1; t < 60; ++t) {
+      still.rotation(joint).set(t, still.rotation(joint)[0]);
+      if (still.translates(joint)) still.translation(joint).set(t, still.translation(joint)[0]);
+    }
+  const auto moved = [&](std::initializer_list<const char*> joints) {
+    Motion motion = still;
+    for (const char* joint : joints)
+      for (std::size_t t = 0; t < 60; ++t)
+        motion.rotation(motion.skeleton().find(joint))
+            .set(t, exp(Vec3{0.2 * sine(0.3 * static_cast<double>(t)), 0, 0}));
+    Alone work;
+    for (Representation representation : {Representation::logarithm, Representation::quaternions}) {
+      const std::string by_rotation = what_moves(analysed({shared(motion)}, representation, 1, work), 0);
+      EXPECT_EQ(by_rotation, what_moves(analysed({shared(motion)}, Representation::logarithm, 1, work), 0));
+    }
+    return what_moves(analysed({shared(motion)}, Representation::points, 1, work), 0);
+  };
+  EXPECT_EQ(moved({"LeftUpLeg", "RightUpLeg"}), "legs");
+  EXPECT_EQ(moved({"LeftArm", "RightArm"}), "arms");
+  EXPECT_EQ(moved({"Head", "Neck"}), "head");
 }
 
 TEST(ComponentMeaningNode, NamesItsMetrics) {

@@ -235,7 +235,7 @@ TEST(FileFacts, OfComponentsTellWhatEachMoves) {
   const std::string text = facts_text(file, facts, "it");
   for (const char* line :
        {"components 2 independent of points, 90.0 % of the variance", "u1        70.0 % of the variance",
-        "moves brow", "not unique", "clip 0    100 frames at 50 a second, 2 s", "points    2: brow, jaw"})
+        "moves brow", "not unique", "segment 0 100 frames at 50 a second, 2 s", "points    2: brow, jaw"})
     EXPECT_THAT(text, HasSubstr(line));
   const Json json = facts_json(file, facts, "it");
   EXPECT_EQ(json.find("components")->number(), 2);
