@@ -137,28 +137,59 @@ TEST_P(ComponentJob, StaysSmooth) {
 INSTANTIATE_TEST_SUITE_P(Pairs, ComponentJob, testing::ValuesIn(jobs),
                          [](const auto& job) { return fmt::format("{}_{}", job.param.a, job.param.b); });
 
-// Both clips on one clock before they are joined, and what lies between the walk and its restyled self
-// [Shapiro Fig. 6].
-TEST(AlignedComponentJob, LeansMoreAndMoreFromTheWalkToItsRestyledSelf) {
+// Both clips on one clock before they are joined, and what lies between a clip and its restyled self [Shapiro
+// Fig. 6]: every pair, both ways.
+struct Aligned {
+  const char *receives, *gives;
+  int carries;
+  double least;
+  // The run's 135 frames on the sneak's 450 are held three and four at a time, which shows in the restyled
+  // run; a sneak with a walk's straight legs stands in the floor until it is lifted (see ComponentJob).
+  bool rough;
+  friend void PrintTo(const Aligned& job, std::ostream* out) {
+    *out << job.receives << " from " << job.gives;
+  }
+};
+const Aligned aligned[] = {
+    {"16_31", "17_03", 1, 0.8, false}, {"17_03", "16_31", 1, 0.8, false}, {"07_05", "17_03", 1, 0.8, false},
+    {"17_03", "07_05", 1, 0.8, true},  {"16_45", "17_03", 1, 0.8, true},  {"17_03", "16_45", 1, 0.8, false},
+    {"16_45", "16_31", 2, 0.8, false}, {"16_31", "16_45", 2, 0.8, false},
+};
+class AlignedComponentJob : public testing::TestWithParam<Aligned> {};
+
+TEST_P(AlignedComponentJob, LeansMoreAndMoreFromTheClipToItsRestyledSelf) {
   KINEGRAPH_NEEDS_MOCAP();
-  const Exported out("tests/component_job/aligned.kg.json", "components_aligned", "");
+  const Aligned& job = GetParam();
+  const Exported out(
+      "tests/component_job/aligned.kg.json", fmt::format("components_aligned_{}_{}", job.receives, job.gives),
+      fmt::format(
+          R"(--var walk={} --var sneak={} --set 'restyled.edits=[{{"op":"transfer","components":{},"from":1,"to":0}}]')",
+          job.receives, job.gives, job.carries));
   ASSERT_TRUE(out.ran());
   const auto walk = out.motion("walk.bvh"), sneak = out.motion("sneak.bvh"),
              last = out.motion("restyled.bvh");
   ASSERT_TRUE(walk && sneak && last);
-  const double before = torso_pitch(*walk), after = torso_pitch(*last);
-  EXPECT_GT((after - before) / (torso_pitch(*sneak) - before), 0.8);
+  const double before = torso_pitch(*walk), after = torso_pitch(*last), wanted = torso_pitch(*sneak);
+  EXPECT_GT((after - before) / (wanted - before), job.least);
   for (int percent : {25, 50, 75}) {
     const auto between = out.motion(fmt::format("restyled_{}.bvh", percent));
     EXPECT_NEAR((torso_pitch(*between) - before) / (after - before), percent / 100.0, 0.05) << percent;
-    EXPECT_EQ(joints_that_jerk(*between, *walk, *sneak), "") << percent;
+    if (!job.rough) {
+      EXPECT_EQ(joints_that_jerk(*between, *walk, *sneak), "") << percent;
+    }
   }
+  fmt::print("aligned {} <- {}: pitch {:.1f}° of {:.1f}° -> {:.1f}° ({:.0f} %)\n", job.receives, job.gives,
+             before, wanted, after, 100 * (after - before) / (wanted - before));
+  if (job.rough) return;
   EXPECT_EQ(joints_that_jerk(*last, *walk, *sneak), "");
   const auto plants = std::dynamic_pointer_cast<const Contacts>(out.value("plants.json", "contacts"));
   ASSERT_TRUE(plants);
   EXPECT_LT(farthest_from_plants(*last, *plants), 1e-3);
-  fmt::print("aligned: pitch {:.1f}° -> {:.1f}°\n", before, after);
 }
+
+INSTANTIATE_TEST_SUITE_P(Pairs, AlignedComponentJob, testing::ValuesIn(aligned), [](const auto& job) {
+  return fmt::format("{}_from_{}", job.param.receives, job.param.gives);
+});
 
 }  // namespace
 }  // namespace kinegraph
