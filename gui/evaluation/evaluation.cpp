@@ -249,15 +249,42 @@ void Evaluation::run(EvaluationRequest request) {
         if (ValuePtr value = evaluator_.value(plan, target.node, port.name))
           result->values[target.node + "." + port.name] = std::move(value);
   }
+  std::vector<std::string> done;
   for (const auto& [node, run] : result->log.nodes)
-    if (run.state == NodeState::done && node.find('/') == std::string::npos)
-      if (auto still = still_of(request, plan, node)) result->stills[node] = std::move(still);
-  find_outdated(whole, *result);
+    if (run.state == NodeState::done && node.find('/') == std::string::npos) done.push_back(node);
   for (const auto& [node, unused] : plan.passed)
-    if (request.document.nodes.count(node))
-      if (auto still = still_of(request, plan, node)) result->stills[node] = std::move(still);
+    if (request.document.nodes.count(node)) done.push_back(node);
+  find_outdated(whole, *result);
   deliver(std::move(result));
+  deliver_stills(request, plan, done);
   if (!request.effects && !stop->stopped()) look_around(request, plan, *stop);
+}
+
+bool Evaluation::gives_way() const {
+  std::lock_guard lock(mutex_);
+  return quitting_ || next_ || next_effects_;
+}
+
+// After the values, which somebody waits for.
+void Evaluation::deliver_stills(const EvaluationRequest& request, const Plan& plan,
+                                const std::vector<std::string>& nodes) {
+  std::map<std::string, std::shared_ptr<const Still>> stills;
+  for (const std::string& node : nodes) {
+    if (gives_way()) break;  // what comes next makes those that are still missing
+    if (auto still = still_of(request, plan, node)) stills[node] = std::move(still);
+  }
+  if (stills.empty()) return;
+  QMetaObject::invokeMethod(
+      this,
+      [this, stills = std::move(stills), graph = request.graph] {
+        {
+          std::lock_guard lock(mutex_);
+          if (graph != graph_) return;
+        }
+        take_stills(stills);
+        sum_up_graph_nodes();
+      },
+      Qt::QueuedConnection);
 }
 
 // What failed, was mended and isn't looked at any more must not stand there as failed.
@@ -301,10 +328,7 @@ void Evaluation::look_around(const EvaluationRequest& request, const Plan& plan,
   seen->graph = request.graph;
   std::vector<Target> cached;
   for (const PlannedNode& node : plan.nodes) {
-    {
-      std::lock_guard lock(mutex_);
-      if (quitting_ || next_ || next_effects_) return;
-    }
+    if (gives_way()) return;
     if (!node.type || !node.enabled || node.type->outputs.empty() || !node.blocked.empty()) continue;
     NodeRun run;
     run.state = NodeState::done;
@@ -423,9 +447,11 @@ void Evaluation::deliver(std::shared_ptr<Result> result) {
   QMetaObject::invokeMethod(
       this,
       [this, result] {
+        bool newest = false;
         {
           std::lock_guard lock(mutex_);
           if (result->graph != graph_) return;
+          newest = result->generation == generation_;
         }
         // An older run that was stopped says nothing new, but its finished values are as good as any.
         for (auto& [name, value] : result->values) values_[name] = value;
@@ -434,8 +460,16 @@ void Evaluation::deliver(std::shared_ptr<Result> result) {
           emit status_changed(QString::fromStdString(name));
         }
         for (const auto& [name, run] : result->log.nodes) {
-          if (run.state == NodeState::skipped || run.state == NodeState::cancelled) continue;
           NodeStatus& status = statuses_[name];
+          if (run.state == NodeState::skipped || run.state == NodeState::cancelled) {
+            // What takes its place says so itself; if nothing does it must not stand there as running.
+            if (status.state != NodeStatus::State::running && status.state != NodeStatus::State::waiting)
+              continue;
+            status.state = newest ? NodeStatus::State::cancelled : NodeStatus::State::idle;
+            status.progress = 0;
+            emit status_changed(QString::fromStdString(name));
+            continue;
+          }
           status.state = state_named(name_of(run.state));
           status.progress = 1;
           status.seconds = run.seconds;
@@ -454,7 +488,6 @@ void Evaluation::deliver(std::shared_ptr<Result> result) {
           status.diagnostics = diagnostics;
           emit status_changed(QString::fromStdString(name));
         }
-        take_stills(result->stills);
         sum_up_graph_nodes();
         log_ = std::move(result->log);
         problems_ = std::move(result->problems);

@@ -76,6 +76,9 @@ class Evaluation : public QObject {
   void run(EvaluationRequest request);
   // States and stills of nodes that the caches know though nothing asked for them; gives way to any request.
   void look_around(const EvaluationRequest& request, const Plan& plan, StopToken& stop);
+  void deliver_stills(const EvaluationRequest& request, const Plan& plan,
+                      const std::vector<std::string>& nodes);
+  bool gives_way() const;  // something newer waits
   std::shared_ptr<const Still> still_of(const EvaluationRequest& request, const Plan& plan,
                                         const std::string& node);
   void deliver(std::shared_ptr<Result> result);

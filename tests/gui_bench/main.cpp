@@ -4,6 +4,7 @@
 #include <QElapsedTimer>
 #include <QFile>
 #include <QMouseEvent>
+#include <QSlider>
 #include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QTest>
@@ -11,11 +12,14 @@
 #include <QWheelEvent>
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "graph/file/write.h"
+#include "gui/viewer/shown_motion.h"
 #include "gui/viewer/viewer.h"
 #include "gui/window/main_window.h"
 #include "nodes/all_nodes.h"
@@ -128,7 +132,8 @@ std::vector<double> gaps(Bench& bench, int least) {
 void never_blocks() {
   Bench bench;
   bench.open(warp_graph());
-  bench.session().select({"warp"}, "warp");
+  auto* viewer = bench.window.findChild<Viewer*>();
+  viewer->pin(2, "warp");  // looked at whatever is chosen: who drags a node chooses it
   if (!QTest::qWaitFor([&] { return warp_runs(bench); }, 60000)) {
     tell("TimeWarp of 20,000 frames runs", 0, "", 1, true);
     return;
@@ -158,7 +163,6 @@ void never_blocks() {
   tell("an edit stops the old work, the longest of " + std::to_string(cancelled.size()), part(cancelled, 1),
        "ms", 50);
 
-  auto* viewer = bench.window.findChild<Viewer*>();
   viewer->pin(1, "a");
   (void)QTest::qWaitFor([&] { return !viewer->shown().empty() && viewer->shown()[0].motion; }, 60000);
   bench.window.playback().play();
@@ -243,6 +247,110 @@ void many_nodes() {
   }
 }
 
+// A graph with a slider on 1,000 frames; `nested`: the nodes lie in a graph file inside it, whose `more`
+// other nodes are read with it.
+std::string slider_graph(Bench& bench, bool nested, int more) {
+  std::string nodes = R"("sneak": {"type": "Gait", "params": {"gait": "sneak", "seconds": 8.34}},
+    "style": {"type": "QuatStats", "inputs": {"motion": "sneak.motion"}},
+    "transfer": {"type": "StyleTransfer", "params": {"amount": 0.5}, "inputs": {"motion": "walk.motion", "style": "style.stats"}},
+    "walk": {"type": "Gait", "params": {"seconds": 8.34}})";
+  const std::string start = R"({"format": "kinegraph", "schema": 1, )";
+  for (int i = 0; i < more; ++i)
+    nodes += ",\n\"more" + std::to_string(i) + R"(": {"type": "Trim", "inputs": {"motion": "walk.motion"}})";
+  if (!nested) return start + R"("nodes": {)" + nodes + "}}";
+  std::ofstream(bench.folder.filePath("inside.kg.json").toStdString())
+      << start
+      << R"("publish": {"params": {"amount": "transfer.amount"}, "outputs": {"motion": "transfer.motion"}},
+      "nodes": {)" +
+             nodes + "}}";
+  return start +
+         R"("nodes": {"transfer": {"type": "Graph", "params": {"file": "inside.kg.json", "amount": 0.5}}}})";
+}
+
+double cpu_ms(clockid_t which) {
+  timespec now{};
+  clock_gettime(which, &now);
+  return double(now.tv_sec) * 1e3 + double(now.tv_nsec) * 1e-6;
+}
+
+// From a move of the slider's handle to the picture of the new motion.
+void slider_drag(const char* what, bool nested, int more) {
+  Bench bench;
+  bench.open(slider_graph(bench, nested, more));
+  bench.session().select({"transfer"}, "transfer");
+  auto* viewer = bench.window.findChild<Viewer*>();
+  const auto value = [&] { return bench.window.evaluation().value("transfer", "motion"); };
+  const auto shows = [&] {
+    return !viewer->shown().empty() && viewer->shown()[0].motion &&
+           viewer->shown()[0].motion->value == value();
+  };
+  (void)QTest::qWaitFor([&] { return value() && shows() && !bench.window.is_evaluating(); }, 60000);
+  QTest::qWait(300);
+  auto* row = bench.window.findChild<QWidget*>("param_amount");
+  auto* slider = row ? row->findChild<QSlider*>() : nullptr;
+  if (!slider) return tell(std::string(what) + ": there is a slider", 0, "", 1, true);
+  const QPoint from(slider->width() / 2, slider->height() / 2);
+  QTest::mousePress(slider, Qt::LeftButton, {}, from);
+  std::vector<double> edited, evaluated, made, drawn, window_cpu, all_cpu;
+  for (int i = 1; i <= 60; ++i) {
+    (void)QTest::qWaitFor([&] { return !bench.window.is_evaluating(); }, 5000);
+    QTest::qWait(20);
+    const ValuePtr before = value();
+    const int pictures = viewer->pictures_drawn();
+    const double thread = cpu_ms(CLOCK_THREAD_CPUTIME_ID), process = cpu_ms(CLOCK_PROCESS_CPUTIME_ID);
+    QElapsedTimer clock;
+    clock.start();
+    const QPoint at = from + QPoint(i % 2 ? i / 2 + 1 : -i / 2, 0);
+    QMouseEvent event(QEvent::MouseMove, at, slider->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
+    QApplication::sendEvent(slider, &event);
+    edited.push_back(ms(clock));
+    double computed = 0, ready = 0;
+    while (ms(clock) < 2000) {
+      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+      if (!computed && value() != before) computed = ms(clock);
+      if (computed && !ready && shows()) ready = ms(clock);
+      if (ready && viewer->pictures_drawn() > pictures) break;
+    }
+    evaluated.push_back(computed);
+    made.push_back(ready);
+    drawn.push_back(ms(clock));
+    window_cpu.push_back(cpu_ms(CLOCK_THREAD_CPUTIME_ID) - thread);
+    all_cpu.push_back(cpu_ms(CLOCK_PROCESS_CPUTIME_ID) - process);
+  }
+  QTest::mouseRelease(slider, Qt::LeftButton, {}, from);
+  // One repaint is drawing the picture.
+  tell(std::string(what) + ": the result, median of 60", part(made, 0.5), "ms", 33);
+  std::printf(
+      "    medians: edited %.1f, evaluated %.1f, made ready %.1f, drawn %.1f ms; CPU of the window's thread "
+      "%.1f, of all %.1f ms\n",
+      part(edited, 0.5), part(evaluated, 0.5), part(made, 0.5), part(drawn, 0.5), part(window_cpu, 0.5),
+      part(all_cpu, 0.5));
+  tell(std::string(what) + ": 95 % of results", part(made, 0.95), "ms", 50);
+  tell(std::string(what) + ": the window's thread, 95 % of edits", part(edited, 0.95), "ms", 20);
+
+  // Without a pause, as a hand drags: how many results are seen.
+  QTest::mousePress(slider, Qt::LeftButton, {}, from);
+  std::set<const Value*> seen;
+  QElapsedTimer clock;
+  clock.start();
+  for (int i = 0; ms(clock) < 2000; ++i) {
+    const QPoint at = from + QPoint(int(40 * std::sin(i * 0.05)), 0);
+    QMouseEvent event(QEvent::MouseMove, at, slider->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
+    QApplication::sendEvent(slider, &event);
+    QTest::qWait(8);
+    if (!viewer->shown().empty() && viewer->shown()[0].motion)
+      seen.insert(viewer->shown()[0].motion->value.get());
+  }
+  QTest::mouseRelease(slider, Qt::LeftButton, {}, from);
+  tell(std::string(what) + ": results seen in a second of dragging", double(seen.size()) / 2, "", 12, true);
+}
+
+void slider_drags() {
+  slider_drag("a slider on 1,000 frames", false, 0);
+  slider_drag("in a graph of 500 nodes", false, 496);
+  slider_drag("through a nested file of 500 nodes", true, 496);
+}
+
 void five_bodies() {
   Bench bench;
   bench.open(R"({"format": "kinegraph", "schema": 1, "nodes": {
@@ -293,6 +401,7 @@ int main(int argc, char** argv) {
   const std::string which = argc > 1 ? argv[1] : "";
   if (which.empty() || which == "blocks") kinegraph::never_blocks();
   if (which.empty() || which == "nodes") kinegraph::many_nodes();
+  if (which.empty() || which == "slider") kinegraph::slider_drags();
   if (which.empty() || which == "bodies") kinegraph::five_bodies();
   return kinegraph::all_hold ? 0 : 1;
 }
