@@ -2,6 +2,7 @@
 #include <QFileInfo>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "graph/links.h"
 #include "graph/nested.h"
@@ -88,10 +89,10 @@ QString shown_value(const ParamType& type, const Json& value) {
   return {};
 }
 
-void GraphScene::rebuild(const Document& document, const Registry& registry,
-                         const std::set<std::string>& expanded) {
-  nodes_.clear();
-  by_name_.clear();
+std::vector<std::string> GraphScene::rebuild(const Document& document, const Registry& registry,
+                                             const std::set<std::string>& expanded) {
+  const std::vector<SceneNode> old_nodes = std::exchange(nodes_, {});
+  const auto old_by_name = std::exchange(by_name_, {});
   wires_.clear();
   frames_.clear();
   notes_.clear();
@@ -241,6 +242,12 @@ void GraphScene::rebuild(const Document& document, const Registry& registry,
   place_wires();
   if (!unplaced.empty()) arrange_unplaced(unplaced);
   place_frames();
+  std::vector<std::string> changed;
+  for (const SceneNode& node : nodes_) {
+    const auto old = old_by_name.find(node.name);
+    if (old == old_by_name.end() || !node.looks_like(old_nodes[old->second])) changed.push_back(node.name);
+  }
+  return changed;
 }
 
 // Nodes that were never seen in an editor: in columns, below those that have a place.

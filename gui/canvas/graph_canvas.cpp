@@ -36,8 +36,13 @@ GraphCanvas::GraphCanvas(Session& session, Evaluation& evaluation, QWidget* pare
   });
   connect(&session_, &Session::changed, this, &GraphCanvas::rebuild);
   connect(&session_, &Session::problems_changed, this, [this] {
+    const auto before = problems_;
     find_problems();
-    pixmaps_.forget();
+    for (const SceneNode& node : scene_.nodes()) {
+      const auto old = before.find(node.name);
+      if ((old == before.end() ? std::nullopt : std::optional(old->second)) != problem_of(node.name))
+        pixmaps_.forget(node.name);
+    }
     update();
   });
   connect(&session_, &Session::selection_changed, this, [this] {
@@ -61,12 +66,12 @@ void GraphCanvas::set_theme(const Theme& theme) {
 }
 
 void GraphCanvas::rebuild() {
-  scene_.rebuild(session_.document(), session_.registry(), expanded_);
+  for (const std::string& node : scene_.rebuild(session_.document(), session_.registry(), expanded_))
+    pixmaps_.forget(node);
   scene_.raise(session_.selected());
   std::erase_if(selected_frames_,
                 [&](const auto& name) { return !session_.document().ui.frames.count(name); });
   std::erase_if(selected_notes_, [&](const auto& name) { return !session_.document().ui.notes.count(name); });
-  pixmaps_.forget();
   update();
 }
 

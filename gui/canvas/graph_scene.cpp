@@ -3,6 +3,7 @@
 #include <QLineF>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace kinegraph {
 
@@ -10,6 +11,15 @@ const ScenePort* SceneNode::port(bool input, std::string_view port_name) const {
   for (const ScenePort& one : input ? inputs : outputs)
     if (one.name == port_name) return &one;
   return nullptr;
+}
+
+bool SceneNode::looks_like(const SceneNode& other) const {
+  const auto looks = [](const SceneNode& node) {
+    return std::tie(node.name, node.type, node.category, node.inputs, node.outputs, node.values,
+                    node.hidden_ports, node.expandable, node.expanded, node.still, node.more, node.enabled,
+                    node.missing, node.dot, node.note, node.color);
+  };
+  return rect.size() == other.rect.size() && looks(*this) == looks(other);
 }
 
 QPolygonF wire_curve(QPointF from, QPointF to) {

@@ -22,10 +22,12 @@ struct ScenePort {
   QString help;
   QPointF at;  // relative to the node's top left
   bool list = false, optional = false, linked = false;
+  bool operator==(const ScenePort&) const = default;
 };
 
 struct SceneValue {  // a parameter shown on the node
   QString name, value;
+  bool operator==(const SceneValue&) const = default;
 };
 
 struct SceneNode {
@@ -41,6 +43,8 @@ struct SceneNode {
   QString note, color;
 
   const ScenePort* port(bool input, std::string_view port_name) const;
+  // Drawn alike, wherever they stand.
+  bool looks_like(const SceneNode& other) const;
 };
 
 struct SceneWire {
@@ -76,8 +80,9 @@ class GraphScene {
   static constexpr int step = 10;  // positions snap to it
   static constexpr int node_width = 180;
 
-  // `expanded`: nodes that show all their ports.
-  void rebuild(const Document& document, const Registry& registry, const std::set<std::string>& expanded);
+  // `expanded`: nodes that show all their ports. Gives the nodes that are new or look otherwise than before.
+  std::vector<std::string> rebuild(const Document& document, const Registry& registry,
+                                   const std::set<std::string>& expanded);
 
   const std::vector<SceneNode>& nodes() const { return nodes_; }
   const std::vector<SceneWire>& wires() const { return wires_; }

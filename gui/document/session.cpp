@@ -36,6 +36,40 @@ bool only_for_the_eye(const Edit& edit) {
   return true;
 }
 
+// Whether graph files inside may be others now, or be given otherwise. All else leaves what was read of them.
+bool touches_inside(const Edit& edit, const Document& document, const Registry& registry) {
+  const auto is_graph = [&](const std::string& name) {
+    const NodeType* type = registry.find(name);
+    return type && type->role == Role::graph;
+  };
+  const auto of_graph = [&](const std::optional<Json>& node) {
+    const Json* type = node ? node->find("type") : nullptr;
+    return type && type->is_string() && is_graph(type->string());
+  };
+  for (const Change& change : edit.changes) {
+    switch (change.unit.kind) {
+      case Unit::Kind::node:
+      case Unit::Kind::missing_node:
+        if (of_graph(change.before) || of_graph(change.after)) return true;
+        break;
+      case Unit::Kind::node_type:
+      case Unit::Kind::node_param: {
+        const auto node = document.nodes.find(change.unit.name);
+        if (node == document.nodes.end() || !is_graph(node->second.type)) break;
+        const NodeType* type = known_type(registry, node->second);
+        const Param* param = type ? type->find_param(change.unit.key) : nullptr;
+        if (!param || param->kind == ParamType::Kind::open_file) return true;
+        break;
+      }
+      case Unit::Kind::variable:
+        return true;
+      default:
+        break;
+    }
+  }
+  return false;
+}
+
 Diagnostics unreadable(const QString& path, const QString& why) {
   return {error("unreadable-file", "can't be read: " + why.toStdString())
               .in_file(path.toStdString())
@@ -255,7 +289,7 @@ void Session::redo() {
 void Session::after(const Edit& edit) {
   const bool meaning = !only_for_the_eye(edit);
   keep_selection_valid();
-  if (meaning) check_meaning();
+  if (meaning) check_meaning(touches_inside(edit, page_->document, registry_));
   if (!is_modified())
     discard_autosave();
   else if (!autosave_.isActive())  // not put off by each edit: work without a pause is kept too
@@ -265,8 +299,8 @@ void Session::after(const Edit& edit) {
   if (meaning) emit meaning_changed();
 }
 
-void Session::check_meaning() {
-  open_inside(page_->document, page_->path);
+void Session::check_meaning(bool inside_too) {
+  if (inside_too) open_inside(page_->document, page_->path);
   ValidateOptions options;
   options.file = title().toStdString();
   options.folder = folder().toStdString();

@@ -126,7 +126,7 @@ class Session : public QObject {
   void after(const Edit& edit);
   void show(std::unique_ptr<Page> page);  // instead of the shown one
   void tell_of_page();
-  void check_meaning();
+  void check_meaning(bool inside_too = true);  // reads the graph files inside again, or leaves them
   void open_inside(Document& document, const QString& path) const;
   std::string text_inside(const std::string& path) const;
   void keep_selection_valid();

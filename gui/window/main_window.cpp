@@ -109,7 +109,11 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   connect(&session_, &Session::meaning_changed, this, later);
   connect(&session_, &Session::selection_changed, this, later);
   connect(&evaluation_, &Evaluation::busy_changed, this, &MainWindow::update_progress);
-  connect(&evaluation_, &Evaluation::status_changed, this, &MainWindow::update_progress);
+  // Once for all nodes that tell of themselves in one turn.
+  connect(&evaluation_, &Evaluation::status_changed, this, [this] {
+    if (std::exchange(progress_due_, true)) return;
+    QMetaObject::invokeMethod(this, &MainWindow::update_progress, Qt::QueuedConnection);
+  });
   connect(&evaluation_, &Evaluation::finished, this, [this](bool effects) {
     update_progress();
     if (effects) ran_effects();
@@ -198,6 +202,7 @@ void MainWindow::evaluate() {
 }
 
 void MainWindow::update_progress() {
+  progress_due_ = false;
   const bool busy = evaluation_.is_busy();
   progress_->setVisible(busy);
   actions_.at("cancel")->setEnabled(busy);

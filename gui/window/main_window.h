@@ -129,7 +129,7 @@ class MainWindow : public QMainWindow {
   QTimer reload_;
   KnownFiles known_files_;
   bool laid_out_ = false;  // the docks have their sizes
-  bool evaluation_due_ = false, inside_changed_ = false;
+  bool evaluation_due_ = false, progress_due_ = false, inside_changed_ = false;
 };
 
 }  // namespace kinegraph
