@@ -31,7 +31,7 @@ Contacts plants_of(const Motion& motion, Work& work);
 // Σ b·b′ / Σ b·b, b being the way from the first to the last frame of each stretch in which a point of
 // `contacts` (planted or not) is within 4 cm of its usual low. A whole stretch doesn't mind which of its
 // frames are held or left out, and what the foot does there and back cancels: on the pairs of Wu's Table 1 it
-// is within 9 % of what the plants ask for once the warp is undone, a sum over single frames within 29 %. As
+// is within 10 % of what the plants ask for once the warp is undone, a sum over single frames within 29 %. As
 // long as the feet of `before` stood still in their own time, so will those of `after`. Both motions have the
 // same frames and headings. Nothing where nothing moves.
 std::optional<double> sweep_factor(const Motion& before, const Motion& after, const Contacts& contacts,
