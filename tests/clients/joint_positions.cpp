@@ -67,8 +67,9 @@ nlohmann::json vertices_of(const Motion& motion, const Character& character, std
   for (std::size_t t = 0; t < motion.frames(); t += every) {
     auto& all = frames[std::to_string(t)] = nlohmann::json::array();
     const Pose pose = pose_for(character, motion, t);
-    for (const MeshPart& part : character.parts)
-      for (Vec3 p : posed_vertices(character, part, pose)) {
+    const auto morphs = morph_weights_at(character, t);
+    for (std::size_t i = 0; i < character.parts.size(); ++i)
+      for (Vec3 p : posed_vertices(character, character.parts[i], pose, morphs[i])) {
         p = p / motion.source().unit;
         all.push_back({p.x, p.y, p.z});
       }
