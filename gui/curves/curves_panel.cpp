@@ -250,6 +250,24 @@ void CurvesPanel::tell(const QString& words) {
   pages_->setCurrentIndex(words_page);
 }
 
+QString CurvesPanel::why_not(const Offer& offer) const {
+  const NodeStatus* status = evaluation_.status(offer.result.node);
+  const QString node = QString::fromStdString(offer.result.node);
+  using State = NodeStatus::State;
+  switch (status ? status->state : State::idle) {
+    case State::failed:
+    case State::missing:
+      return tr("%1 failed. Problems tells why.").arg(node);
+    case State::blocked:
+      return tr("%1 waits for a node before it that failed or is not linked. Problems tells which.")
+          .arg(node);
+    case State::incomplete:
+      return tr("%1 isn't linked yet.").arg(node);
+    default:
+      return tr("Evaluating %1 …").arg(offer.name);
+  }
+}
+
 void CurvesPanel::take_values() {
   const Offer* one = offer();
   const bool channels = one && one->type == "Motion";
@@ -259,7 +277,7 @@ void CurvesPanel::take_values() {
   if (!one) return tell(tr("Choose a node to see its channels, statistics or warp as curves."));
   if (!visible_) return;
   const ValuePtr value = evaluation_.value(one->result.node, one->result.port);
-  if (!value) return tell(tr("Evaluating %1 …").arg(one->name));
+  if (!value) return tell(why_not(*one));
   if (one->type == "Warp")
     show_warp(*one);
   else if (channels)

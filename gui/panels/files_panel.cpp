@@ -2,7 +2,6 @@
 
 #include <QCoreApplication>
 #include <QDir>
-#include <QDirIterator>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -19,21 +18,7 @@
 namespace kinegraph {
 namespace {
 
-constexpr int most_clips = 500;
 constexpr int path_role = Qt::UserRole;
-
-const QStringList& clip_endings() {
-  static const QStringList endings{"*.bvh", "*.amc", "*.c3d", "*.trc", "*.glb", "*.gltf", "*.fbx"};
-  return endings;
-}
-
-QStringList clips_in(const QString& folder) {
-  QDirIterator files(folder, clip_endings(), QDir::Files, QDirIterator::Subdirectories);
-  QStringList paths;
-  while (files.hasNext() && paths.size() < most_clips) paths << files.next();
-  paths.sort();
-  return paths;
-}
 
 // Files leave it as paths, so that any program takes them.
 class FileTree : public QTreeWidget {
@@ -70,7 +55,8 @@ FilesPanel::FilesPanel(Session& session, QWidget* parent)
       session_(session),
       theme_(&dark_theme()),
       filter_(new QLineEdit(this)),
-      tree_(new FileTree(this)) {
+      tree_(new FileTree(this)),
+      walk_(new ClipWalk(this)) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 8, 8, 8);
   filter_->setPlaceholderText(tr("Filter by name"));
@@ -99,7 +85,7 @@ FilesPanel::FilesPanel(Session& session, QWidget* parent)
     if (!folders.contains(folder)) folders << folder;
     settings->setValue("assets", folders);
     settings->sync();
-    fill();
+    look();
   });
   column->addWidget(tree_, 1);
   connect(filter_, &QLineEdit::textChanged, this, &FilesPanel::fill);
@@ -111,8 +97,26 @@ FilesPanel::FilesPanel(Session& session, QWidget* parent)
       emit add_clip(path);
   });
   connect(&session_, &Session::file_changed, this, [this] {
-    if (folder_ != session_.folder()) fill();
+    if (folder_ != clip_folder()) look();
   });
+  connect(walk_, &ClipWalk::found, this, [this](const QString& folder, const QStringList& clips) {
+    clips_[folder] = clips;
+    fill();
+  });
+  look();
+}
+
+// The clips beside the graph, or of the examples where there is no graph.
+QString FilesPanel::clip_folder() const {
+  return session_.path().isEmpty() ? examples_folder() : session_.folder();
+}
+
+void FilesPanel::look() {
+  folder_ = clip_folder();
+  QStringList folders;
+  if (!folder_.isEmpty()) folders << folder_;
+  folders += user_settings()->value("assets").toStringList();
+  walk_->look_through(folders);
   fill();
 }
 
@@ -122,7 +126,6 @@ void FilesPanel::set_theme(const Theme& theme) {
 }
 
 void FilesPanel::fill() {
-  folder_ = session_.folder();
   tree_->clear();
   const QString wanted = filter_->text().trimmed();
   const auto section = [this](const QString& title) {
@@ -149,20 +152,22 @@ void FilesPanel::fill() {
     for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"}, QDir::Files, QDir::Name))
       add(examples, file.absoluteFilePath(), file.fileName().remove(".kg.json").replace('_', ' '),
           Sign::graph);
-  // The clips beside the graph, or of the examples where there is no graph.
-  const QString clips = session_.path().isEmpty() ? folder : folder_;
-  auto* found = section(tr("Clips"));
-  if (!clips.isEmpty())
-    for (const QString& path : clips_in(clips))
-      add(found, path, QDir(clips).relativeFilePath(path), Sign::clip);
-  std::vector<QTreeWidgetItem*> sections{recent, examples, found};
-  for (const QString& assets : user_settings()->value("assets").toStringList()) {
-    if (!QDir(assets).exists()) continue;
-    sections.push_back(section(QDir(assets).dirName()));
-    sections.back()->setToolTip(0, QDir::toNativeSeparators(assets));
-    for (const QString& path : clips_in(assets))
-      add(sections.back(), path, QDir(assets).relativeFilePath(path), Sign::clip);
-  }
+  std::vector<QTreeWidgetItem*> sections{recent, examples};
+  const auto add_clips = [&](const QString& title, const QString& in) {
+    sections.push_back(section(title));
+    sections.back()->setToolTip(0, QDir::toNativeSeparators(in));
+    const auto known = clips_.find(in);
+    if (known == clips_.end()) {
+      auto* looking = new QTreeWidgetItem(sections.back(), {tr("looking …")});
+      looking->setFlags(Qt::NoItemFlags);
+      return;
+    }
+    for (const QString& path : known->second)
+      add(sections.back(), path, QDir(in).relativeFilePath(path), Sign::clip);
+  };
+  if (!folder_.isEmpty()) add_clips(tr("Clips"), folder_);
+  for (const QString& assets : user_settings()->value("assets").toStringList())
+    if (QDir(assets).exists()) add_clips(QDir(assets).dirName(), assets);
   for (QTreeWidgetItem* item : sections) {
     item->setExpanded(true);
     if (item->childCount()) continue;

@@ -3,8 +3,10 @@
 #pragma once
 #include <QTreeWidget>
 #include <QWidget>
+#include <map>
 
 #include "gui/document/session.h"
+#include "gui/panels/clip_walk.h"
 #include "gui/window/theme.h"
 
 class QLineEdit;
@@ -17,6 +19,8 @@ class FilesPanel : public QWidget {
  public:
   explicit FilesPanel(Session& session, QWidget* parent = nullptr);
   void set_theme(const Theme& theme);
+  // Looks for clips again, on a thread of its own; the list shows what was found so far.
+  void look();
 
  signals:
   void open_graph(const QString& path);
@@ -24,11 +28,14 @@ class FilesPanel : public QWidget {
 
  private:
   void fill();
+  QString clip_folder() const;
   Session& session_;
   const Theme* theme_;
   QLineEdit* filter_;
   QTreeWidget* tree_;
+  ClipWalk* walk_;
   QString folder_;
+  std::map<QString, QStringList> clips_;  // by folder, of those looked through
 };
 
 // Where the examples lie: beside the program or in its source tree; "" = nowhere.

@@ -189,6 +189,23 @@ std::optional<Target> Timeline::nearest_warp(const Document& document, const Reg
   return {};
 }
 
+QString Timeline::why_not(const std::string& node) const {
+  using State = NodeStatus::State;
+  const NodeStatus* status = evaluation_.status(node);
+  if (!status) return {};
+  switch (status->state) {
+    case State::failed:
+    case State::missing:
+      return tr("failed: there is nothing to play");
+    case State::blocked:
+      return tr("waits for a node before it");
+    case State::incomplete:
+      return tr("isn't linked yet");
+    default:
+      return {};
+  }
+}
+
 void Timeline::take_values() {
   const Viewer::Shown* main = nullptr;
   std::vector<TimelineTracks::Row> rows;
@@ -210,7 +227,9 @@ void Timeline::take_values() {
     const QString name = QString::fromStdString(one.target.node);
     const bool there =
         std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.motion == one.motion; });
-    if (!there) rows.push_back({name, colors[i % std::size(colors)], one.motion});
+    if (!there)
+      rows.push_back({name, colors[i % std::size(colors)], one.motion,
+                      one.motion ? QString() : why_not(one.target.node)});
   }
   if (main) playback_.set_clip(main->motion->fps, main->motion->frames);
   const bool with_warp = warp && rows.size() >= 2 && !source_.node.empty();
@@ -231,6 +250,7 @@ void Timeline::update_state() {
 }
 
 void Timeline::update_moment() {
+  if (!playback_.frames()) return moment_->clear();
   moment_->setText(tr("frame %1 of %2   %3 s   %4 fps")
                        .arg(playback_.frame())
                        .arg(playback_.frames())

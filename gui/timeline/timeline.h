@@ -48,6 +48,7 @@ class Timeline : public QWidget {
   std::optional<Target> nearest_warp(const Document& document, const Registry& registry,
                                      const std::string& node) const;
   void take_values();
+  QString why_not(const std::string& node) const;
   void update_state();
   void update_moment();
 

@@ -157,7 +157,12 @@ void TimelineTracks::paint_row(QPainter& painter, const Row& row, const QRectF& 
   painter.setPen(Qt::NoPen);
   painter.setBrush(row.color);
   painter.drawEllipse(QPointF(13, where.center().y()), 4, 4);
-  if (!row.motion) return;
+  if (!row.motion) {
+    painter.setPen(theme_->faint_text);
+    painter.drawText(QRectF(gutter + 10, where.top(), width() - gutter - 20, where.height()),
+                     Qt::AlignVCenter | Qt::AlignLeft, row.why_not);
+    return;
+  }
   const ShownMotion& motion = *row.motion;
   const double scale = playback_.fps() / motion.fps;
   const QRectF body(x_of(0), where.top(), x_of(motion.frames * scale) - x_of(0), where.height());

@@ -20,6 +20,7 @@ class TimelineTracks : public QWidget {
     QString name;
     QColor color;
     std::shared_ptr<const ShownMotion> motion;
+    QString why_not = {};  // there is no motion, where that won't change by itself
   };
 
   explicit TimelineTracks(Playback& playback, QWidget* parent = nullptr);

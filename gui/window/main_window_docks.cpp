@@ -64,6 +64,10 @@ void MainWindow::make_docks() {
   add_room(curves, tr("Curves"), Qt::BottomDockWidgetArea);
   add_room(problems, tr("Problems"), Qt::BottomDockWidgetArea);
   usual_layout();
+  // Whoever looks at the dock sees what is there now.
+  connect(docks_[2], &QDockWidget::visibilityChanged, files, [files](bool seen) {
+    if (seen) files->look();
+  });
   connect(files, &FilesPanel::open_graph, this, &MainWindow::open);
   connect(files, &FilesPanel::add_clip, this, [this](const QString& path) {
     canvas_->add("Load", canvas_->to_graph(QRectF(canvas_->rect()).center() - QPointF(90, 40)), {},

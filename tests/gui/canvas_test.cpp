@@ -261,8 +261,8 @@ TEST(EditorCanvas, APortUnderAnotherNodeIsNotGrabbed) {
   editor.drag_node(editor.metrics, port - QPointF(90, 14));
   const SceneNode* over = editor.canvas().scene().node_at(port);
   ASSERT_TRUE(over);
-  const std::string covering = over->name, covered = covering == editor.gait ? editor.metrics : editor.gait;
-  // Whichever lies on top: at its title only it moves, and no wire begins.
+  const std::string covering = over->name;
+  EXPECT_EQ(covering, editor.metrics);  // what is chosen lies on top
   const QPointF before = editor.canvas().scene().node(covering)->rect.topLeft();
   const QPoint at = editor.middle(covering);
   editor.drag(at, at + QPoint(0, 120));

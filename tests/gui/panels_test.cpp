@@ -3,6 +3,7 @@
 #include <QAbstractButton>
 #include <QAbstractSlider>
 #include <QComboBox>
+#include <QDir>
 #include <QFile>
 #include <QTreeWidget>
 
@@ -150,6 +151,31 @@ TEST(EditorWindow, EveryControlHasAnAccessibleName) {
           << " in " << widget->parentWidget()->objectName().toStdString();
     }
   }
+}
+
+TEST(EditorFiles, ListsTheClipsBesideTheGraphAsTheyAreNow) {
+  Editor editor;
+  QDir(editor.folder.path()).mkpath("takes/deep");
+  const auto put = [&](const QString& name) {
+    QFile file(editor.folder.filePath(name));
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  };
+  put("takes/deep/one.bvh");
+  put("takes/readme.txt");
+  editor.session().save_as(editor.folder.filePath("graph.kg.json"));
+  auto* tree = editor.window.findChild<QTreeWidget*>("file_tree");
+  const auto lists = [&](const QString& name) {
+    return QTest::qWaitFor([&] {
+      return !tree->findItems(name, Qt::MatchExactly | Qt::MatchRecursive).isEmpty();
+    });
+  };
+  editor.window.show_dock("Files");
+  EXPECT_TRUE(lists("takes/deep/one.bvh"));
+  EXPECT_TRUE(tree->findItems("takes/readme.txt", Qt::MatchExactly | Qt::MatchRecursive).isEmpty());
+  editor.window.show_dock("Parameters");
+  put("takes/two.c3d");
+  editor.window.show_dock("Files");
+  EXPECT_TRUE(lists("takes/two.c3d"));
 }
 
 TEST(EditorDocument, WhatIsSavedOpensAgainTheSame) {
