@@ -87,9 +87,15 @@ EDIT_VALUE(
     R"({{"op": "merge", "name": "g", "terms": [[1, 1], [2, 1]]}}, {{"op": "transfer", "components": "g", "from": 1, "to": 0, "align": ["group:g"], "amount": {}}})");
 EDIT_VALUE(substitute,
            R"({{"op": "scale", "component": 2, "factor": {}}}, {{"op": "substitute", "component": 1}})");
-EDIT_VALUE(substitute_of_what_is_scaled,
-           R"({{"op": "scale", "component": 1, "factor": {}}}, {{"op": "substitute", "component": 1}})");
 EDIT_VALUE(warp, R"({{"op": "warp", "component": 1, "keys": [[100, {}]]}})");
+
+// The one that is substituted, scaled before: then it is shown as a motion anew for every value.
+void edit_before_substitute(benchmark::State& state) {
+  edit_value(state,
+             R"({{"op": "scale", "component": 1, "factor": {}}}, {{"op": "substitute", "component": 1}})",
+             true);
+}
+BENCHMARK(edit_before_substitute)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
 
 }  // namespace
 }  // namespace kinegraph
