@@ -167,10 +167,17 @@ std::string shortest_number(double value) {
   return out;
 }
 
-std::string in_quotes(std::string_view text) {
+namespace {
+void put_quoted(std::string_view text, std::string& out) {
   static constexpr char hex[] = "0123456789abcdef";
-  std::string out = "\"";
-  for (const char c : text) {
+  const auto is_plain = [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != '"' && c != '\\'; };
+  out += '"';
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::size_t start = i;
+    while (i < text.size() && is_plain(text[i])) ++i;
+    out.append(text, start, i - start);
+    if (i == text.size()) break;
+    const char c = text[i];
     switch (c) {
       case '"':
         out += "\\\"";
@@ -194,16 +201,20 @@ std::string in_quotes(std::string_view text) {
         out += "\\t";
         break;
       default:
-        if (static_cast<unsigned char>(c) < 0x20) {
-          out += "\\u00";
-          out += hex[static_cast<unsigned char>(c) >> 4];
-          out += hex[static_cast<unsigned char>(c) & 15];
-        } else {
-          out += c;
-        }
+        out += "\\u00";
+        out += hex[static_cast<unsigned char>(c) >> 4];
+        out += hex[static_cast<unsigned char>(c) & 15];
     }
   }
-  return out + '"';
+  out += '"';
+}
+}  // namespace
+
+std::string in_quotes(std::string_view text) {
+  std::string out;
+  out.reserve(text.size() + 2);
+  put_quoted(text, out);
+  return out;
 }
 
 namespace {
@@ -220,7 +231,7 @@ void put_scalar(const Json& value, bool as_read, std::string& out) {
       out += as_read && !value.spelling().empty() ? value.spelling() : shortest_number(value.number());
       break;
     default:
-      out += in_quotes(value.string());
+      put_quoted(value.string(), out);
   }
 }
 
