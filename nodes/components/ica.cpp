@@ -193,7 +193,7 @@ Decomposition decompose(const Rows& channels, const IcaParams& params, Work& wor
   if (const std::string others = list_of(steady); params.rotate && !others.empty())
     work.report(warning("sign-not-sure", "which way round " + others +
                                              " stands hangs on little: another `seed` may turn it round")
-                    .hinting("where an edit adds to it (translate, warp, copy_add), keep the `seed`"));
+                    .hinting("where an edit adds to it (translate, warp), keep the `seed`"));
   if (const std::string others = list_of(out.unique); !others.empty())
     work.report(
         warning("not-unique", "the components " + others +
