@@ -56,6 +56,7 @@ ComponentsPanel::ComponentsPanel(Session& session, Evaluation& evaluation, Playb
   auto* scroll = new QScrollArea(page);
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setFocusPolicy(Qt::NoFocus);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   grid_ = new ComponentsGrid(scroll);
   scroll->setWidget(grid_);
@@ -73,7 +74,9 @@ ComponentsPanel::ComponentsPanel(Session& session, Evaluation& evaluation, Playb
   connect(&session_, &Session::selection_changed, this, &ComponentsPanel::find_wanted);
   connect(&session_, &Session::meaning_changed, this, &ComponentsPanel::find_wanted);
   connect(&evaluation_, &Evaluation::values_changed, this, &ComponentsPanel::take_values);
-  connect(&evaluation_, &Evaluation::status_changed, this, &ComponentsPanel::take_values);
+  connect(&evaluation_, &Evaluation::status_changed, this, [this](const QString& node) {
+    if (node.toStdString() == components_.node) take_values();
+  });
   connect(&figures_, &ComponentFigures::made, this, &ComponentsPanel::take_values);
   set_theme(*theme_);
   find_wanted();

@@ -1,6 +1,7 @@
 #include "gui/panels/parameter_panel.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
@@ -237,6 +238,15 @@ void ParameterPanel::build(const NodeType& known) {
         faint_label(tr("%1 has no parameters.").arg(QString::fromStdString(known.name)), inside));
   column->addStretch(1);
   scroll_->setWidget(inside);
+  // Tab goes on from the note through the rows: widgets that come later would stand behind all other docks.
+  QWidget* before = note_;
+  for (QWidget* child : inside->findChildren<QWidget*>()) {
+    if (!(child->focusPolicy() & Qt::TabFocus) || child->focusProxy() || child->window() != window() ||
+        qobject_cast<QComboBox*>(child->parentWidget()))
+      continue;
+    setTabOrder(before, child);
+    before = child;
+  }
   help_->setText(known.params.empty() ? QString() : tr("Point at a parameter to read what it does."));
 }
 

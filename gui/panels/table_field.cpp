@@ -198,7 +198,8 @@ class TableField : public ParamField {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       QString start;
       const ParamType& type = columns_[i];
-      if (!type.fallback && !type.choices.empty()) start = QString::fromStdString(type.choices.front().key);
+      if (!type.choices.empty() && (variants_ || !type.fallback))
+        start = QString::fromStdString(type.choices.front().key);
       set_cell(row, int(i), start);
     }
     if (variants_) {
@@ -258,8 +259,7 @@ class TableField : public ParamField {
     } else if (objects_) {
       Json::Object object;
       for (std::size_t i = 0; i < columns_.size(); ++i) {
-        if (cell(row, int(i)).isEmpty() &&
-            (columns_[i].fallback || columns_[i].kind != ParamType::Kind::text)) {
+        if (cell(row, int(i)).isEmpty()) {
           if (columns_[i].fallback) continue;
           why = tr("%1 is still missing.").arg(QString::fromStdString(columns_[i].name));
           break;

@@ -93,6 +93,7 @@ void Timeline::build() {
   column->addLayout(row);
   tracks_ = new TimelineTracks(playback_, this);
   tracks_->setFocusPolicy(Qt::StrongFocus);
+  setFocusProxy(tracks_);  // which shows that the keyboard is here
   column->addWidget(tracks_, 1);
 }
 

@@ -173,6 +173,7 @@ QScrollArea#parameter_rows, QScrollArea#parameter_rows > QWidget > QWidget { bac
 QScrollArea#examples, QScrollArea#examples > QWidget > QWidget { background: transparent; }
 QCheckBox:focus { border: 1px solid %5; border-radius: 3px; }
 QLineEdit:focus, QPlainTextEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QTreeView:focus, QListView:focus, QTableView:focus, QSlider:focus { border: 1px solid %5; }
+QPushButton:focus { background: %6; } QTextBrowser { background: %8; border: 1px solid transparent; } QTextBrowser:focus { border-color: %5; }
 QTreeView, QListView, QTableView { background: %8; border: 1px solid %3; border-radius: 4px; }
 QTreeView::indicator { width: 12px; height: 12px; border: 1px solid %7; border-radius: 3px; }
 QTreeView::indicator:checked { background: %5; border-color: %5; }

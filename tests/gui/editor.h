@@ -15,6 +15,7 @@
 
 #include "gui/window/main_window.h"
 #include "nodes/all_nodes.h"
+#include "tests/gui/mouse.h"
 
 namespace kinegraph::editor_test {
 
@@ -73,13 +74,7 @@ struct Editor {
     return canvas().to_view(QPointF(box.center().x(), box.top() + 14)).toPoint();
   }
   void drag(QPoint from, QPoint to, Qt::KeyboardModifiers keys = Qt::NoModifier) {
-    QTest::mousePress(&canvas(), Qt::LeftButton, keys, from);
-    for (int i = 1; i <= 12; ++i) {
-      const QPoint at = from + (to - from) * i / 12;
-      QMouseEvent event(QEvent::MouseMove, at, canvas().mapToGlobal(at), Qt::NoButton, Qt::LeftButton, keys);
-      QApplication::sendEvent(&canvas(), &event);
-    }
-    QTest::mouseRelease(&canvas(), Qt::LeftButton, keys, to);
+    editor_test::drag(canvas(), from, to, {.keys = keys, .steps = 12});
     settle();
   }
   // Moves a node to a place of the graph by dragging its title.
@@ -95,20 +90,8 @@ struct Editor {
 
   // The handle of a slider, dragged by so many pixels; `meanwhile` runs before the button is let go.
   void drag_slider(QSlider& slider, int pixels, const std::function<void()>& meanwhile = {}) {
-    const int handle = slider.style()->pixelMetric(QStyle::PM_SliderLength, nullptr, &slider);
-    const int at = QStyle::sliderPositionFromValue(slider.minimum(), slider.maximum(), slider.value(),
-                                                   slider.width() - handle) +
-                   handle / 2;
-    const QPoint from(at, slider.height() / 2);
-    QTest::mousePress(&slider, Qt::LeftButton, {}, from);
-    for (int i = 1; i <= 8; ++i) {
-      const QPoint to = from + QPoint(pixels * i / 8, 0);
-      QMouseEvent event(QEvent::MouseMove, to, slider.mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
-                        Qt::NoModifier);
-      QApplication::sendEvent(&slider, &event);
-    }
-    if (meanwhile) meanwhile();
-    QTest::mouseRelease(&slider, Qt::LeftButton, {}, from + QPoint(pixels, 0));
+    const QPoint from = handle_of(slider, slider.value());
+    editor_test::drag(slider, from, from + QPoint(pixels, 0), {.meanwhile = meanwhile});
     settle();
   }
 

@@ -12,6 +12,7 @@
 
 #include "gui/components/component_edits.h"
 #include "gui/components/components_grid.h"
+#include "gui/viewer/shown_motion.h"
 #include "gui/viewer/stage.h"
 #include "gui/viewer/viewer.h"
 #include "tests/gui/editor.h"
@@ -119,11 +120,20 @@ struct FromNothing : Editor {
         EXPECT_NE(status->state, NodeStatus::State::failed) << name;
       }
     const QImage before = stage();
+    const ValuePtr plain = viewer().shown()[0].motion->value;
     auto* amount = field<QSlider>("amount");
     ASSERT_TRUE(amount);
     const std::size_t steps = session().history().position();
-    drag_slider(*amount, amount->value() > amount->maximum() / 2 ? -40 : 40,
-                [&] { EXPECT_TRUE(QTest::qWaitFor([&] { return stage() != before; }, 20000)); });
+    drag_slider(*amount, amount->value() > amount->maximum() / 2 ? -40 : 40, [&] {
+      // Another motion, and a picture of it, while the button is still down.
+      EXPECT_TRUE(QTest::qWaitFor(
+          [&] {
+            const auto& shown = viewer().shown();
+            return shown.size() == 1 && shown[0].motion && shown[0].motion->value != plain;
+          },
+          20000));
+      EXPECT_TRUE(QTest::qWaitFor([&] { return stage() != before; }, 20000));
+    });
     EXPECT_EQ(session().history().position(), steps + 1);
     ASSERT_TRUE(document().nodes.at(transfer).params.count("amount"));
 

@@ -5,6 +5,7 @@
 #include <QColor>
 #include <cmath>
 
+#include "tests/gui/mouse.h"
 #include "tests/gui/viewing_window.h"
 #include "tests/mocap.h"
 
@@ -43,16 +44,6 @@ QWidget* widget_at(QWidget& window, QPoint at) {
   return child ? child : &window;
 }
 
-void drag(QWidget* widget, QPoint from, QPoint to, Qt::MouseButton button) {
-  QTest::mousePress(widget, button, {}, from);
-  for (int i = 1; i <= 5; ++i) {
-    QMouseEvent move(QEvent::MouseMove, from + (to - from) * i / 5.0,
-                     widget->mapToGlobal(from + (to - from) * i / 5.0), Qt::NoButton, button, {});
-    QApplication::sendEvent(widget, &move);
-  }
-  QTest::mouseRelease(widget, button, {}, to);
-}
-
 TEST(Viewer, ShowsTheCurrentNodeAsALitBodyWithSides) {
   ViewingWindow window(five_gaits);
   ASSERT_TRUE(window.problems.empty()) << window.problems.front().message;
@@ -84,10 +75,10 @@ TEST(Viewer, TurnsWithTheMouseAndFramesWithF) {
   const QPoint at = middle_of_stage(*window.viewer);
   QWidget* stage = widget_at(*window.viewer, at);
   const QPoint inside = stage->mapFrom(window.viewer, at);
-  drag(stage, inside, inside + QPoint(120, 10), Qt::LeftButton);
+  editor_test::drag(*stage, inside, inside + QPoint(120, 10));
   EXPECT_NE(window.viewer->picture(), before);
   const QImage turned = window.viewer->picture();
-  drag(stage, inside, inside + QPoint(60, 60), Qt::MiddleButton);
+  editor_test::drag(*stage, inside, inside + QPoint(60, 60), {.button = Qt::MiddleButton});
   EXPECT_NE(window.viewer->picture(), turned);
   QTest::keyClick(window.viewer, Qt::Key_F);
   EXPECT_EQ(window.viewer->picture(), turned);
