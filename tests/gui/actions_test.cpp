@@ -1,18 +1,13 @@
-// The table of actions, each run by its keys alone; names for those who can't see the window.
+// The table of actions, each run by its keys alone.
 #include "gui/window/actions.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <QAbstractButton>
-#include <QAbstractSlider>
-#include <QAbstractSpinBox>
-#include <QComboBox>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QMenu>
 #include <QMenuBar>
-#include <QPlainTextEdit>
 #include <QTimer>
 #include <set>
 
@@ -188,36 +183,6 @@ TEST(EditorActions, KeysOfTheViewerAndTimelineDoWhatTheirRowsSay) {
       editor.key(keys.key(), keys.keyboardModifiers());
       EXPECT_NE(state(), before);
       if (name == "pin") viewer.pin(1, "");
-    }
-  }
-}
-
-TEST(EditorActions, EveryControlHasAName) {
-  Editor editor;
-  ASSERT_TRUE(editor.window.open(graphs + "style_transfer.kg.json"));
-  for (const auto& [node, unused] : editor.document().nodes) {
-    editor.session().select({node}, node);
-    Editor::settle();
-    for (QWidget* widget : editor.window.findChildren<QWidget*>()) {
-      const bool control = qobject_cast<QAbstractButton*>(widget) || qobject_cast<QComboBox*>(widget) ||
-                           qobject_cast<QAbstractSlider*>(widget) || qobject_cast<QLineEdit*>(widget) ||
-                           qobject_cast<QPlainTextEdit*>(widget) || qobject_cast<QAbstractSpinBox*>(widget) ||
-                           widget->inherits("QAbstractItemView") || widget->inherits("QTabBar");
-      if (!control || widget->objectName().startsWith("qt_") || widget->inherits("QScrollBar")) continue;
-      // Parts of a control that has a name itself.
-      if (widget->parentWidget() &&
-          (widget->parentWidget()->inherits("QAbstractSpinBox") ||
-           widget->parentWidget()->inherits("QComboBox") ||
-           widget->parentWidget()->inherits("QComboBoxPrivateContainer") ||
-           widget->parentWidget()->inherits("QAbstractItemView") ||
-           widget->parentWidget()->inherits("QTabBar") || widget->parentWidget()->inherits("QLineEdit") ||
-           widget->parentWidget()->inherits("QDockWidget")))
-        continue;
-      const auto* button = qobject_cast<QAbstractButton*>(widget);
-      EXPECT_TRUE(!widget->accessibleName().isEmpty() || (button && !button->text().isEmpty()))
-          << widget->metaObject()->className() << " " << widget->objectName().toStdString() << " in "
-          << (widget->parentWidget() ? widget->parentWidget()->metaObject()->className() : "") << " "
-          << (widget->parentWidget() ? widget->parentWidget()->objectName().toStdString() : "");
     }
   }
 }

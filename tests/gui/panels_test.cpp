@@ -1,8 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <QAbstractButton>
-#include <QAbstractSlider>
-#include <QComboBox>
 #include <QDir>
 #include <QFile>
 #include <QTreeWidget>
@@ -132,25 +129,6 @@ TEST(EditorProblems, AnOpenRequiredInputIsListedAndAClickGoesToItsNode) {
   QTest::mouseClick(list->viewport(), Qt::LeftButton, {},
                     list->visualItemRect(list->topLevelItem(0)).center());
   EXPECT_EQ(editor.session().current(), metrics);
-}
-
-TEST(EditorWindow, EveryControlHasAnAccessibleName) {
-  Editor editor;
-  for (const std::string& type : editor.registry.names()) {
-    editor.canvas().add(type, {0, 0});
-    editor.settle();
-    for (QWidget* widget : editor.window.findChildren<QWidget*>()) {
-      const bool control = qobject_cast<QAbstractButton*>(widget) || qobject_cast<QLineEdit*>(widget) ||
-                           qobject_cast<QAbstractSlider*>(widget) || qobject_cast<QComboBox*>(widget);
-      if (!control || widget->focusPolicy() == Qt::NoFocus || !widget->isVisible()) continue;
-      if (qobject_cast<QComboBox*>(widget->parentWidget()) || widget->objectName().startsWith("qt_"))
-        continue;
-      auto* button = qobject_cast<QAbstractButton*>(widget);
-      EXPECT_TRUE(!widget->accessibleName().isEmpty() || (button && !button->text().isEmpty()))
-          << type << ": " << widget->metaObject()->className() << " " << widget->objectName().toStdString()
-          << " in " << widget->parentWidget()->objectName().toStdString();
-    }
-  }
 }
 
 TEST(EditorFiles, ListsTheClipsBesideTheGraphAsTheyAreNow) {

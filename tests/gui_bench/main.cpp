@@ -311,8 +311,9 @@ void slider_drag(const char* what, bool nested, int more) {
       if (computed && !ready && shows()) ready = ms(clock);
       if (ready && viewer->pictures_drawn() > pictures) break;
     }
-    evaluated.push_back(computed);
-    made.push_back(ready);
+    // What never came counts as long as it was waited for.
+    evaluated.push_back(computed > 0 ? computed : ms(clock));
+    made.push_back(ready > 0 ? ready : ms(clock));
     drawn.push_back(ms(clock));
     window_cpu.push_back(cpu_ms(CLOCK_THREAD_CPUTIME_ID) - thread);
     all_cpu.push_back(cpu_ms(CLOCK_PROCESS_CPUTIME_ID) - process);
