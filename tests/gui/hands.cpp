@@ -1,14 +1,16 @@
 #include "tests/gui/hands.h"
 
 #include <QApplication>
+#include <QClipboard>
 #include <QDir>
 #include <QFile>
+#include <QLineEdit>
 #include <QMenu>
-#include <QMouseEvent>
 #include <QSlider>
-#include <QStyle>
 #include <QTest>
 #include <QTimer>
+
+#include "tests/gui/mouse.h"
 
 namespace kinegraph::editor_test {
 
@@ -82,6 +84,7 @@ void Hands::settle() {
 }
 
 void Hands::look_at_all() {
+  delete asking.data();  // the gesture before opened nothing
   if (!QApplication::activeWindow()) QApplication::setActiveWindow(&window);
   canvas().setFocus();
   key(Qt::Key_Escape);
@@ -111,33 +114,13 @@ void Hands::double_click(QPoint view) {
 }
 
 void Hands::drag(QPoint from, QPoint to, Qt::KeyboardModifiers keys) {
-  QTest::mousePress(&canvas(), Qt::LeftButton, keys, from);
-  for (int i = 1; i <= 6; ++i) {
-    const QPoint at = from + (to - from) * i / 6;
-    QMouseEvent event(QEvent::MouseMove, at, canvas().mapToGlobal(at), Qt::NoButton, Qt::LeftButton, keys);
-    QApplication::sendEvent(&canvas(), &event);
-  }
-  QTest::mouseRelease(&canvas(), Qt::LeftButton, keys, to);
+  editor_test::drag(canvas(), from, to, {.keys = keys, .steps = 6});
   settle();
 }
 
 void Hands::drag_slider(QSlider& slider) {
-  const int handle = slider.style()->pixelMetric(QStyle::PM_SliderLength, nullptr, &slider);
-  const auto place = [&](int value) {
-    return QPoint(
-        QStyle::sliderPositionFromValue(slider.minimum(), slider.maximum(), value, slider.width() - handle) +
-            handle / 2,
-        slider.height() / 2);
-  };
-  const QPoint from = place(slider.value());
-  const QPoint to = place(slider.minimum() + below(slider.maximum() - slider.minimum() + 1));
-  QTest::mousePress(&slider, Qt::LeftButton, {}, from);
-  for (int i = 1; i <= 4; ++i) {
-    const QPoint at = from + (to - from) * i / 4;
-    QMouseEvent event(QEvent::MouseMove, at, slider.mapToGlobal(at), Qt::NoButton, Qt::LeftButton, {});
-    QApplication::sendEvent(&slider, &event);
-  }
-  QTest::mouseRelease(&slider, Qt::LeftButton, {}, to);
+  const int to = slider.minimum() + below(slider.maximum() - slider.minimum() + 1);
+  editor_test::drag(slider, handle_of(slider, slider.value()), handle_of(slider, to), {.steps = 4});
   settle();
 }
 
@@ -160,8 +143,7 @@ bool Hands::choose_some(int least) {
 void Hands::when_asked(std::function<void(QWidget&)> answer) {
   auto* timer = new QTimer(&window);
   timer->setInterval(2);
-  // Gone with the window, or after a second in which nothing was asked.
-  QTimer::singleShot(1000, timer, &QObject::deleteLater);
+  asking = timer;
   QObject::connect(timer, &QTimer::timeout, &window, [timer, answer = std::move(answer)] {
     QWidget* up = QApplication::activePopupWidget();
     if (!up) up = QApplication::activeModalWidget();
@@ -171,6 +153,20 @@ void Hands::when_asked(std::function<void(QWidget&)> answer) {
     answer(*up);
   });
   timer->start();
+}
+
+void Hands::answer_file_dialog(const QString& path) {
+  when_asked([path](QWidget& dialog) {
+    QApplication::clipboard()->setText(path);
+    auto* line = dialog.findChild<QLineEdit*>("fileNameEdit");
+    if (!line) {
+      dialog.close();
+      return;
+    }
+    QTest::keyClick(line, Qt::Key_A, Qt::ControlModifier);
+    QTest::keyClick(line, Qt::Key_V, Qt::ControlModifier);
+    QTest::keyClick(line, Qt::Key_Return);
+  });
 }
 
 bool Hands::choose_in_menu(QWidget& widget, const QString& starts_with) {
@@ -190,13 +186,15 @@ QString Hands::new_file(const char* ending) {
 
 std::vector<Gesture> all_gestures() {
   std::vector<Gesture> gestures = canvas_gestures();
-  for (const Gesture& one : dock_gestures()) gestures.push_back(one);
+  for (const auto& more : {parameter_gestures(), dock_gestures()})
+    gestures.insert(gestures.end(), more.begin(), more.end());
   return gestures;
 }
 
 QString graph_for_hands(const QString& folder) {
   QDir(folder).mkpath("clips");
-  QFile::copy(QString(KINEGRAPH_SOURCE_DIR) + "/graphs/clips/walk.bvh", folder + "/clips/walk.bvh");
+  for (const char* clip : {"/clips/walk.bvh", "/clips/sneak.bvh"})
+    QFile::copy(QString(KINEGRAPH_SOURCE_DIR) + "/graphs" + clip, folder + clip);
   const QString path = folder + "/hands.kg.json";
   QFile file(path);
   if (!file.open(QIODevice::WriteOnly)) return {};
@@ -207,6 +205,15 @@ QString graph_for_hands(const QString& folder) {
     "lively": 1.25
   },
   "nodes": {
+    "bold": {
+      "type": "Exaggerate",
+      "params": {
+        "correct": false
+      },
+      "inputs": {
+        "motion": "made.motion"
+      }
+    },
     "check": {
       "type": "Check",
       "params": {
@@ -239,6 +246,12 @@ QString graph_for_hands(const QString& folder) {
       "type": "Gait",
       "params": {
         "seconds": 1
+      }
+    },
+    "poses": {
+      "type": "MotionWarp",
+      "inputs": {
+        "motion": "sneak.motion"
       }
     },
     "sneak": {
@@ -276,26 +289,32 @@ QString graph_for_hands(const QString& folder) {
   },
   "ui": {
     "nodes": {
+      "bold": {
+        "pos": [250, 700]
+      },
       "check": {
         "pos": [1000, 0]
       },
       "ica": {
-        "pos": [250, 400]
+        "pos": [250, 450]
       },
       "judge": {
         "pos": [750, 0]
       },
       "made": {
-        "pos": [0, 400]
+        "pos": [0, 600]
+      },
+      "poses": {
+        "pos": [500, 250]
       },
       "sneak": {
-        "pos": [0, 200]
+        "pos": [0, 250]
       },
       "stats": {
-        "pos": [250, 200]
+        "pos": [250, 250]
       },
       "take": {
-        "pos": [750, 200]
+        "pos": [750, 250]
       },
       "transfer": {
         "pos": [500, 0]

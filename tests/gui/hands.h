@@ -1,7 +1,9 @@
 // A person's hands on the editor's window for long tests: random but fitting gestures with mouse and keys,
 // each drawn from a table. Nodes of the opened graph stay; those that the hands add come and go.
 #pragma once
+#include <QPointer>
 #include <QTemporaryDir>
+#include <QTimer>
 #include <functional>
 #include <random>
 #include <set>
@@ -57,8 +59,9 @@ struct Hands {
   void drag_slider(QSlider& slider);
   bool choose(const std::string& node);  // by a click; false: it can't be reached
   bool choose_some(int least);           // own nodes, by Shift
-  // Answers the dialog or menu that the next action opens.
+  // Answers the dialog or menu that this gesture opens.
   void when_asked(std::function<void(QWidget&)> answer);
+  void answer_file_dialog(const QString& path);
   bool choose_in_menu(QWidget& menu, const QString& starts_with);
   QString new_file(const char* ending);
 
@@ -67,6 +70,7 @@ struct Hands {
   std::set<std::string> given;  // nodes that were there at first
   QString folder;
   int files = 0;
+  QPointer<QTimer> asking;
 };
 
 struct Gesture {
@@ -75,6 +79,7 @@ struct Gesture {
   int steps = 1;        // of undo that it makes
 };
 std::vector<Gesture> canvas_gestures();
+std::vector<Gesture> parameter_gestures();
 std::vector<Gesture> dock_gestures();
 std::vector<Gesture> all_gestures();
 

@@ -1,8 +1,6 @@
 // The gestures of the canvas.
 #include <QApplication>
-#include <QClipboard>
 #include <QCursor>
-#include <QLineEdit>
 #include <QTest>
 
 #include "gui/canvas/canvas_edits.h"
@@ -79,6 +77,28 @@ bool take_link_off(Hands& hands) {
   return false;
 }
 
+// The end of a link, taken off and put on another input that fits.
+bool move_link(Hands& hands) {
+  const auto place = [&](const PortAt& port) {
+    return hands.canvas().to_view(hands.canvas().scene().port_position(port)).toPoint();
+  };
+  for (const SceneWire& wire : hands.wires()) {
+    const PortAt end{wire.to, wire.to_port, true}, start{wire.from, wire.from_port, false};
+    const auto& inputs = hands.document().nodes.at(wire.to).inputs.at(wire.to_port);
+    if (hands.given.count(wire.to) || inputs.list || !hands.reaches(end)) continue;
+    for (const std::string& to : hands.shuffled(hands.own()))
+      for (const ScenePort& input : hands.canvas().scene().node(to)->inputs) {
+        const PortAt other{to, input.name, true};
+        if (input.linked || other == end || !hands.reaches(other) ||
+            !objection(hands.document(), hands.session().registry(), start, other).isEmpty())
+          continue;
+        hands.drag(place(end), place(other));
+        return true;
+      }
+  }
+  return false;
+}
+
 // A place of a wire where nothing else lies.
 QPoint on_wire(Hands& hands, const SceneWire& wire) {
   for (qsizetype i = wire.line.size() / 2; i + 2 < wire.line.size(); ++i) {
@@ -101,7 +121,8 @@ bool drop_on_wire(Hands& hands) {
       continue;
     for (const SceneWire& wire : hands.wires()) {
       const QPoint at = on_wire(hands, wire);
-      if (wire.type != "Motion" || at.isNull() || wire.from == node || wire.to == node) continue;
+      if (wire.type != "Motion" || at.isNull() || wire.from == node || wire.to == node || wire.to == "ica")
+        continue;
       const QPoint grip = hands.title(node);
       const QPoint middle = hands.canvas().to_view(one.rect.center()).toPoint();
       hands.drag(grip, at + (grip - middle));
@@ -126,7 +147,12 @@ bool cut_wires(Hands& hands) {
     const QPoint at = on_wire(hands, wire);
     if (hands.given.count(wire.to) || at.isNull()) continue;
     for (const QPoint& by : {QPoint(0, 26), QPoint(0, -26), QPoint(26, 26), QPoint(26, -26)}) {
-      if (!hands.is_empty(at - by)) continue;
+      // Links between the nodes that were given stay.
+      bool others = false;
+      for (const SceneWire* crossed : hands.canvas().scene().wires_crossing(hands.canvas().to_graph(at - by),
+                                                                            hands.canvas().to_graph(at + by)))
+        others = others || hands.given.count(crossed->to);
+      if (others || !hands.is_empty(at - by)) continue;
       hands.drag(at - by, at + by, Qt::ControlModifier);
       return true;
     }
@@ -138,7 +164,7 @@ bool dot_on_wire(Hands& hands) {
   if (!hands.few()) return false;
   for (const SceneWire& wire : hands.wires()) {
     const QPoint at = on_wire(hands, wire);
-    if (at.isNull()) continue;
+    if (at.isNull() || wire.to == "ica") continue;
     hands.click(hands.canvas(), at, Qt::ControlModifier);
     return true;
   }
@@ -154,7 +180,7 @@ bool disable(Hands& hands) {
 bool color(Hands& hands) {
   if (!hands.choose_some(1)) return false;
   hands.when_asked([&](QWidget& menu) {
-    for (int i = hands.below(8); i >= 0; --i) QTest::keyClick(&menu, Qt::Key_Down);
+    for (int i = hands.below(9); i >= 0; --i) QTest::keyClick(&menu, Qt::Key_Down);
     QTest::keyClick(&menu, Qt::Key_Return);
   });
   hands.key(Qt::Key_C);
@@ -262,17 +288,7 @@ bool delete_decor(Hands& hands) {
 
 bool collapse(Hands& hands) {
   if (hands.own().size() < 4 || !hands.choose_some(1)) return false;
-  hands.when_asked([&](QWidget& dialog) {
-    QApplication::clipboard()->setText(hands.new_file(".kg.json"));
-    QWidget* line = dialog.findChild<QLineEdit*>("fileNameEdit");
-    if (!line) {
-      dialog.close();
-      return;
-    }
-    QTest::keyClick(line, Qt::Key_A, Qt::ControlModifier);
-    QTest::keyClick(line, Qt::Key_V, Qt::ControlModifier);
-    QTest::keyClick(line, Qt::Key_Return);
-  });
+  hands.answer_file_dialog(hands.new_file(".kg.json"));
   hands.key(Qt::Key_G, Qt::ControlModifier);
   return true;
 }
@@ -355,16 +371,24 @@ bool rename(Hands& hands) {
   return false;
 }
 
+// L, letters of the other's name, Enter.
 bool link_by_search(Hands& hands) {
-  for (const std::string& node : hands.shuffled(hands.own()))
-    if (hands.choose(node)) {
-      const std::size_t before = steps(hands);
-      hands.key(Qt::Key_L);
-      for (int i = hands.below(4); i > 0; --i) hands.key(Qt::Key_Down);
-      hands.key(Qt::Key_Return);
-      hands.key(Qt::Key_Escape);
-      if (steps(hands) != before) return true;
-    }
+  for (const std::string& from : hands.shuffled(hands.own())) {
+    const SceneNode& node = *hands.canvas().scene().node(from);
+    for (const std::string& to : hands.shuffled(hands.own()))
+      for (const ScenePort& output : node.outputs)
+        for (const ScenePort& input : hands.canvas().scene().node(to)->inputs) {
+          if (input.linked || !objection(hands.document(), hands.session().registry(),
+                                         {from, output.name, false}, {to, input.name, true})
+                                   .isEmpty())
+            continue;
+          if (!hands.choose(from)) break;
+          hands.key(Qt::Key_L);
+          hands.type(QString::fromStdString(to + "." + input.name));
+          hands.key(Qt::Key_Return);
+          return true;
+        }
+  }
   return false;
 }
 
@@ -400,6 +424,7 @@ std::vector<Gesture> canvas_gestures() {
       {"drag a wire", drag_wire},
       {"drag a wire to empty space", drag_wire_to_empty},
       {"take a link off", take_link_off},
+      {"move a link", move_link},
       {"drop a node on a wire", drop_on_wire},
       {"Alt-drag a node out", alt_drag_out},
       {"Ctrl-drag across wires", cut_wires},
