@@ -52,10 +52,6 @@ int convert_command(const Program& program, const ConvertArguments& arguments) {
   write.unit = unit_param(program, "Export", arguments.out_unit, "--out-unit");
   const std::string in = absolute_path(arguments.in), out = absolute_path(arguments.out);
   files.allow(in);
-  std::error_code not_there_yet;
-  if (fs::equivalent(in, out, not_there_yet))
-    throw Failure(Diagnostic(error("same-file", fmt::format("{} would be written over itself", arguments.in))
-                                 .hinting("give OUT another name")));
   EncodedFile encoded;
   try {
     const MotionFile file = read_motion_file(in, read, files, work);

@@ -3,7 +3,9 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDockWidget>
+#include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMimeData>
 #include <QProgressBar>
 #include <QSettings>
@@ -141,6 +143,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   update_actions();
   update_progress();
   canvas_->setFocus();
+  qApp->installEventFilter(this);
 }
 
 // What is being typed ends with the window, while there is still a session to take it.
@@ -245,6 +248,20 @@ void MainWindow::update_title() {
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   if (!std::exchange(laid_out_, true)) QTimer::singleShot(0, this, &MainWindow::size_docks);
+}
+
+// A line takes Ctrl+Z for its own text, also where nothing was typed: then the last step of the graph is meant.
+bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride)
+    if (const auto* line = qobject_cast<QLineEdit*>(watched)) {
+      const auto* keys = static_cast<QKeyEvent*>(event);
+      if ((keys->matches(QKeySequence::Undo) && !line->isUndoAvailable()) ||
+          (keys->matches(QKeySequence::Redo) && !line->isRedoAvailable())) {
+        event->ignore();
+        return true;
+      }
+    }
+  return QMainWindow::eventFilter(watched, event);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -278,7 +278,7 @@ bool move_frame(Hands& hands) {
 bool delete_decor(Hands& hands) {
   const auto remove = [&](QPoint at) {
     hands.click(hands.canvas(), at);
-    hands.key(Qt::Key_Delete);
+    if (hands.session().selected().empty()) hands.key(Qt::Key_Delete);  // or a node lay there
   };
   if (hands.document().ui.notes.size() > 2 &&
       with_note(hands, [&](const SceneNote&, QPoint at) { remove(at); }))

@@ -98,7 +98,7 @@ const Mistake mistakes[] = {
      "error: conflict-markers: ", "merge"},
     {"DuplicateKey", file("\"w\": {\"type\": \"Gait\"}"), 4, "error: duplicate-key: ", "line 3"},
     {"NotANumber", with("Gait", R"("speed": NaN)"), 4, "error: not-finite: ", "default"},
-    {"LeadingZero", with("Gait", R"("speed": 01)"), 4, "error: bad-number: ", "0.5"},
+    {"LeadingZero", with("Gait", R"("speed": 01)"), 4, "error: bad-number: ", "write 1"},
     {"BadUtf8", file("\"n\": {\"type\": \"Gait\", \"note\": \"\xff\"}"), 4, "error: bad-utf8: ", "UTF-8"},
     {"ByteOrderMark", "\xEF\xBB\xBF{}", 1, "error: byte-order-mark: ", "UTF-8"},
 

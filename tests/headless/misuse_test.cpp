@@ -60,7 +60,7 @@ const Slip slips[] = {
     {"ConvertedOntoItself",
      {"convert", "walk.bvh", "./walk.bvh"},
      3,
-     {"same-file", "walk.bvh", "another name"}},
+     {"writes-onto-input", "walk.bvh", "name another"}},
     {"ConvertedToNoFormat", {"convert", "walk.bvh", "o.xyz"}, 3, {"o.xyz: error: unknown-format", "bvh"}},
     {"PackedIntoAFile",
      {"pack", "g.kg.json", "-o", "walk.bvh"},
