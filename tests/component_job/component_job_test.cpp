@@ -32,7 +32,7 @@ const Job jobs[] = {
     {"16_31", "17_03", 1, "", 0.8, 0.18, 0.02},
     {"07_05", "17_03", 1, "", 0.8, 0.125, 0.02},
     {"16_45", "17_03", 1, run_plants, 0.35, 0.056, 0.03},
-    {"16_45", "16_31", 2, run_plants, 0.7, 0, 0.03},
+    {"16_45", "16_31", 2, run_plants, 0.7, 0, 0.035},
 };
 
 // Keys of MotionWarp that lift a clip as a whole: its root at both ends, `lift` higher.

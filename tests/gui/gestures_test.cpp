@@ -136,7 +136,7 @@ void undo_all_that_hands_do(unsigned seed) {
   run.go();
   testing::Test::RecordProperty("gestures", run.all);
   std::printf("%s", run.told().c_str());
-  EXPECT_TRUE(run.is_enough()) << run.told();
+  EXPECT_TRUE(run.is_enough()) << run.told() << "see " << picture_of(window).toStdString();
   if (testing::Test::HasFailure()) return;
 
   hands.look_at_all();
