@@ -53,7 +53,7 @@ struct GestureRun {
   }
   std::size_t next() {
     if (in_the_way) {  // what was wanted last had no room, or nothing to act on
-      const std::vector<const char*> tidying{"delete", "delete a note or frame", "arrange"};
+      const std::vector<const char*> tidying{"delete", "delete a note or frame", "move a note", "arrange"};
       return named(hands.one_of(tidying));
     }
     std::vector<std::size_t> left;

@@ -227,7 +227,12 @@ bool rewrite_note(Hands& hands) {
 }
 
 bool move_note(Hands& hands) {
-  return with_note(hands, [&](const SceneNote&, QPoint at) { hands.drag(at, at + QPoint(30, 24)); });
+  // Notes far out would make all nodes too small to be reached when everything is looked at.
+  const QPoint home = hands.title(hands.one_of(hands.all()));
+  return with_note(hands, [&](const SceneNote&, QPoint at) {
+    const QPoint way = (home - at) / 2;
+    hands.drag(at, at + (way.manhattanLength() > 150 ? way : QPoint(30, 24)));
+  });
 }
 
 bool resize_note(Hands& hands) {
