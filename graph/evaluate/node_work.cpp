@@ -10,8 +10,6 @@
 #include <limits>
 #include <tuple>
 
-#include "graph/evaluate/handed_over.h"
-
 namespace kinegraph {
 
 namespace {
@@ -103,16 +101,12 @@ void NodeWork::parallel(std::size_t count, std::size_t grain,
     if (pieces == 1) run(0);
   } else {
     // Isolated: a thread that waits here for the last pieces must not begin another node on top of this one.
-    handed_over::task_given();
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pieces), [&](const auto& range) {
-        handed_over::task_taken();
         used_.mark();
         for (std::size_t piece = range.begin(); piece != range.end(); ++piece) run(piece);
-        handed_over::result_given();
       });
     });
-    handed_over::results_taken();
   }
   if (bad) std::rethrow_exception(bad);
 }

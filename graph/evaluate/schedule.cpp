@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "graph/evaluate/caught.h"
-#include "graph/evaluate/handed_over.h"
 #include "graph/evaluate/note_paths.h"
 
 namespace kinegraph {
@@ -52,19 +51,13 @@ void Schedule::go() {
       }
     }
     group.wait();
-    handed_over::results_taken();
     group_ = nullptr;
   });
 }
 
 void Schedule::spawn(Step step, int node) {
   ++active_;
-  handed_over::task_given();
-  group_->run([this, step, node] {
-    handed_over::task_taken();
-    run_step(step, node);
-    handed_over::result_given();
-  });
+  group_->run([this, step, node] { run_step(step, node); });
 }
 
 void Schedule::run_step(Step step, int node) {

@@ -79,6 +79,7 @@ struct GestureRun {
   void do_one(std::size_t which) {
     const Gesture& gesture = gestures[which];
     hands.look_at_all();
+    hands.give_clips();
     const std::size_t before = hands.session().history().position();
     ++tried[which];
     const double started = cpu_seconds();

@@ -91,6 +91,22 @@ void Hands::look_at_all() {
   key(Qt::Key_A);
 }
 
+void Hands::give_clips() {
+  for (const char* clip : {"walk", "sneak"}) {
+    const auto& inputs = document().nodes.at("ica").inputs;
+    const auto clips = inputs.find("motions");
+    const bool is_there =
+        clips != inputs.end() && std::any_of(clips->second.links.begin(), clips->second.links.end(),
+                                             [&](const Link& link) { return link.node == clip; });
+    const PortAt from{clip, "motion", false}, to{"ica", "motions", true};
+    if (is_there || !reaches(from) || !reaches(to)) continue;
+    const auto place = [&](const PortAt& port) {
+      return canvas().to_view(canvas().scene().port_position(port)).toPoint();
+    };
+    drag(place(from), place(to));
+  }
+}
+
 void Hands::key(int which, Qt::KeyboardModifiers keys) {
   if (!QApplication::activeWindow()) QApplication::setActiveWindow(&window);
   QWidget* widget = QApplication::focusWidget() ? QApplication::focusWidget() : &canvas();

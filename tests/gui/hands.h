@@ -51,6 +51,7 @@ struct Hands {
   // Doing.
   static void settle();
   void look_at_all();
+  void give_clips();  // to the components again, where gestures took one away
   void key(int key, Qt::KeyboardModifiers keys = {});
   void type(const QString& text);
   void click(QWidget& widget, QPoint at, Qt::KeyboardModifiers keys = {});
