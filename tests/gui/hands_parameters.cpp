@@ -226,7 +226,7 @@ void type_cells(Hands& hands, const QStringList& cells) {
 
 bool add_to(Hands& hands, const Table& into) {
   QTableWidget* table = table_of(hands, into.node, into.param);
-  if (!table || table->rowCount() > 5 || !press_tool(hands, QString(into.param) + ": add a row"))
+  if (!table || table->rowCount() > 30 || !press_tool(hands, QString(into.param) + ": add a row"))
     return false;
   type_cells(hands, into.row(hands));
   return true;
