@@ -144,7 +144,8 @@ class Opener {
       asked.second = given_inside(node, asked.first, folder);
       Answer& answer = known[asked];
       // Nodes of one file share what it is; they count as if each had opened it, for each will be expanded.
-      if (!answer.nested || (count_ += answer.count) > most_files) {
+      count_ = std::min(count_ + answer.count, most_files + 1);  // twice as many at each level would overflow
+      if (!answer.nested || count_ > most_files) {
         const int before = count_;
         answer.nested = std::make_shared<const Nested>(opened(asked.first, asked.second, *type));
         answer.count = count_ - before;
