@@ -107,7 +107,7 @@ TEST(RandomGraphs, AreValidButForWhatWasLeftOpen) {
       "wrong-type",    "index-out-of-range", "no-file",        "absolute-path",      "bad-choice",
       "bad-range",     "not-an-integer",     "out-of-range",   "undefined-variable", "variable-not-replaced",
       "bad-variable",  "missing-key",        "unknown-key",    "one-link",           "several-inputs",
-      "wrong-content", "nothing-to-write",   "unknown-format", "bad-pattern"};
+      "wrong-content", "nothing-to-write",   "unknown-format", "bad-pattern",        "bad-name"};
   int whole = 0;
   for (int i = 0; i < 1000; ++i) {
     const Diagnostics problems = validate(
