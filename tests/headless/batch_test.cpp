@@ -93,8 +93,9 @@ TEST_F(BatchTest, AWarningOfManyItemsIsToldForThreeAndCounted) {
   EXPECT_EQ(told, 4u) << ran.err;
   EXPECT_THAT(ran.err, HasSubstr("warning: unknown-metric: judge.rules: 2 more items have it"));
   EXPECT_THAT(ran.out, HasSubstr("judge: skat < 1 could not be measured"));
-  EXPECT_EQ(read_json("r.json")["items"].size(), 5u);
-  for (const auto& item : read_json("r.json")["items"]) {
+  const auto report = read_json("r.json");
+  EXPECT_EQ(report["items"].size(), 5u);
+  for (const auto& item : report["items"]) {
     EXPECT_EQ(item["report"]["nodes"]["judge"]["diagnostics"].size(), 1u);
     EXPECT_EQ(item["cause"], "judge: skat < 1 could not be measured");
   }

@@ -26,7 +26,8 @@ struct Told {
 bool writes_alone(const fs::path& graph) {
   std::ifstream file(graph);
   bool writes = false;
-  for (const auto& node : json::parse(file)["nodes"]) {
+  const json report = json::parse(file);
+  for (const auto& node : report["nodes"]) {
     writes = writes || node["type"] == "Export";
     if (node["type"] == "Graph") return false;
   }
