@@ -8,6 +8,7 @@
 #include "nodes/motion/metrics.h"
 #include "tests/main_job/exported.h"
 #include "tests/nodes/points/face_mask.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -119,7 +120,7 @@ TEST(Faces, OfTheShippedGraphSeparateBetterIntoIndependentThanIntoPrincipalCompo
   std::vector<std::shared_ptr<const Points>> clips;
   for (const char* name : {"brows", "jaw"}) {
     const MotionFile file =
-        read_motion_file(fmt::format("{}/graphs/faces/{}.csv", KINEGRAPH_SOURCE_DIR, name), {}, files, work);
+        read_motion_file(fmt::format("{}/graphs/faces/{}.csv", source_folder(), name), {}, files, work);
     clips.push_back(std::make_shared<const Points>(*file.points()));
   }
   std::vector<bool> stable;

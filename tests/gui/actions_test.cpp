@@ -13,11 +13,12 @@
 
 #include "gui/viewer/viewer.h"
 #include "tests/gui/editor.h"
+#include "tests/places.h"
 
 namespace kinegraph::editor_test {
 namespace {
 
-const QString graphs = QString(KINEGRAPH_SOURCE_DIR) + "/graphs/";
+const QString graphs = QString::fromStdString(source_folder()) + "/graphs/";
 
 TEST(EditorActions, EveryRowOfAMenuIsAnActionWithKeysOfItsOwn) {
   Editor editor;

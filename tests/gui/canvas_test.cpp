@@ -7,6 +7,7 @@
 
 #include "gui/canvas/clear_wires.h"
 #include "tests/gui/editor.h"
+#include "tests/places.h"
 
 namespace kinegraph::editor_test {
 namespace {
@@ -111,9 +112,10 @@ TEST(EditorCanvas, ANodeDroppedOnAWireIsPutIntoItAndAltDragTakesItOut) {
 
 TEST(EditorCanvas, DeleteReconnectsWhatItCan) {
   Editor editor;
-  ASSERT_TRUE(
-      editor.session().open(QString(KINEGRAPH_SOURCE_DIR) + "/graphs/style_transfer.kg.json").empty() ||
-      !has_error(editor.session().problems()));
+  ASSERT_TRUE(editor.session()
+                  .open(QString::fromStdString(source_folder()) + "/graphs/style_transfer.kg.json")
+                  .empty() ||
+              !has_error(editor.session().problems()));
   editor.canvas().setFocus();
   editor.session().select({"unwarp"}, "unwarp");
   editor.key(Qt::Key_Delete);
@@ -154,7 +156,7 @@ TEST(EditorCanvas, KeysOfOneLetterDisableGroupAndArrange) {
 
 TEST(EditorCanvas, ArrowKeysWalkAlongTheLinks) {
   Editor editor;
-  editor.session().open(QString(KINEGRAPH_SOURCE_DIR) + "/graphs/style_transfer.kg.json");
+  editor.session().open(QString::fromStdString(source_folder()) + "/graphs/style_transfer.kg.json");
   editor.canvas().setFocus();
   editor.session().select({"transfer"}, "transfer");
   editor.key(Qt::Key_Right);
@@ -175,7 +177,7 @@ TEST(EditorCanvas, ZoomKeepsWhatIsUnderThePointer) {
 
 TEST(EditorCanvas, EverythingUndoneIsTheFileAsItWas) {
   Editor editor;
-  editor.session().open(QString(KINEGRAPH_SOURCE_DIR) + "/graphs/style_transfer.kg.json");
+  editor.session().open(QString::fromStdString(source_folder()) + "/graphs/style_transfer.kg.json");
   const std::string before = editor.session().text();
   editor.canvas().setFocus();
   editor.canvas().frame_all();
@@ -195,7 +197,7 @@ TEST(EditorCanvas, EverythingUndoneIsTheFileAsItWas) {
 
 struct Examples : testing::Test {
   Examples() {
-    const QDir graphs(QString(KINEGRAPH_SOURCE_DIR) + "/graphs");
+    const QDir graphs(QString::fromStdString(source_folder()) + "/graphs");
     for (const QString& folder : {graphs.path(), graphs.filePath("pipelines")})
       for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"})) files << file.filePath();
   }

@@ -18,11 +18,12 @@
 
 #include "graph/file/write.h"
 #include "tests/gui/editor.h"
+#include "tests/places.h"
 
 namespace kinegraph::editor_test {
 namespace {
 
-const QString graphs = QString(KINEGRAPH_SOURCE_DIR) + "/graphs/";
+const QString graphs = QString::fromStdString(source_folder()) + "/graphs/";
 // More than a text cursor: an edge of a small control.
 constexpr int least_pixels = 30;
 

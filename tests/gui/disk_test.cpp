@@ -14,11 +14,12 @@
 #include "graph/file/write.h"
 #include "gui/window/relink_dialog.h"
 #include "tests/gui/editor.h"
+#include "tests/places.h"
 
 namespace kinegraph::editor_test {
 namespace {
 
-const QString graphs = QString(KINEGRAPH_SOURCE_DIR) + "/graphs/";
+const QString graphs = QString::fromStdString(source_folder()) + "/graphs/";
 
 struct OnDisk : Editor {
   OnDisk() : path(folder.filePath("main.kg.json")) {

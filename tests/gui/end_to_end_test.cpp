@@ -17,6 +17,7 @@
 #include "gui/viewer/viewer.h"
 #include "tests/gui/editor.h"
 #include "tests/mocap.h"
+#include "tests/places.h"
 
 namespace kinegraph::editor_test {
 namespace {
@@ -184,7 +185,7 @@ struct FromNothing : Editor {
     ASSERT_TRUE(QFile::remove(folder.filePath("made.bvh")));
     QProcess run;
     run.setWorkingDirectory(folder.path());
-    run.start(KINEGRAPH_BIN_DIR "/kinegraph", {"run", path});
+    run.start(QString::fromStdString(bin_folder()) + "/kinegraph", {"run", path});
     ASSERT_TRUE(run.waitForFinished(60000));
     ASSERT_EQ(run.exitCode(), 0) << run.readAllStandardError().toStdString();
     EXPECT_TRUE(bytes_of(folder.filePath("made.bvh")) == here);
@@ -221,7 +222,7 @@ struct FromNothing : Editor {
 
 TEST(EditorEndToEnd, AStyleTransferFromAnEmptyCanvasToTheSameBytesAsTheCommandLine) {
   FromNothing editor;
-  const QString clips = QString(KINEGRAPH_SOURCE_DIR) + "/graphs/clips/";  // made by Gait
+  const QString clips = QString::fromStdString(source_folder()) + "/graphs/clips/";  // made by Gait
   editor.whole_way(clips + "walk.bvh", clips + "sneak.bvh");
 }
 

@@ -11,6 +11,7 @@
 #include <QTimer>
 
 #include "tests/gui/mouse.h"
+#include "tests/places.h"
 
 namespace kinegraph::editor_test {
 
@@ -210,7 +211,7 @@ std::vector<Gesture> all_gestures() {
 QString graph_for_hands(const QString& folder) {
   QDir(folder).mkpath("clips");
   for (const char* clip : {"/clips/walk.bvh", "/clips/sneak.bvh"})
-    QFile::copy(QString(KINEGRAPH_SOURCE_DIR) + "/graphs" + clip, folder + clip);
+    QFile::copy(QString::fromStdString(source_folder()) + "/graphs" + clip, folder + clip);
   const QString path = folder + "/hands.kg.json";
   QFile file(path);
   if (!file.open(QIODevice::WriteOnly)) return {};

@@ -11,11 +11,12 @@
 #include "gui/viewer/viewer.h"
 #include "tests/gui/editor.h"
 #include "tests/mocap.h"
+#include "tests/places.h"
 
 namespace kinegraph::editor_test {
 namespace {
 
-const QString graphs = QString(KINEGRAPH_SOURCE_DIR) + "/graphs/";
+const QString graphs = QString::fromStdString(source_folder()) + "/graphs/";
 
 void copy_graphs(const QTemporaryDir& folder) {
   QDir(folder.path()).mkpath("pipelines");
@@ -199,7 +200,7 @@ TEST(EditorPages, AGraphNodeWhoseFileIsGoneIsMendedAmongItsParameters) {
 
 TEST(EditorPages, EachPageKeepsThePinsOfItsViewer) {
   Editor editor;
-  const QString graphs = QString(KINEGRAPH_SOURCE_DIR) + "/graphs/";
+  const QString graphs = QString::fromStdString(source_folder()) + "/graphs/";
   editor.window.open(graphs + "style_transfer.kg.json");
   auto* viewer = editor.window.findChild<Viewer*>();
   viewer->pin(1, "walk");

@@ -8,6 +8,7 @@
 #include "tests/headless/program.h"
 #include "tests/mocap.h"
 #include "tests/nodes/files/plain_files.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -18,8 +19,8 @@ constexpr const char* every_graph[] = {"walk",  "run",        "kick",   "dance",
 class CartoonGraphs : public ProgramTest {
  protected:
   Ran run_graph(const std::string& name) {
-    return run({"run", std::string(KINEGRAPH_SOURCE_DIR) + "/tests/cartoon/" + name + ".kg.json", "--var",
-                "mocap=" + mocap(), "--out", path("out"), "--progress", "none"});
+    return run({"run", source_folder() + "/tests/cartoon/" + name + ".kg.json", "--var", "mocap=" + mocap(),
+                "--out", path("out"), "--progress", "none"});
   }
   MotionFile exported(const std::string& file) {
     PlainFiles files;
@@ -109,7 +110,7 @@ double swing_of(const Motion& motion) {
 
 TEST_F(CartoonGraphs, ShowTheFiveColumnsOfFigure14SideBySide) {
   KINEGRAPH_NEEDS_MOCAP();
-  const std::string graph = std::string(KINEGRAPH_SOURCE_DIR) + "/tests/cartoon/fig14.kg.json";
+  const std::string graph = source_folder() + "/tests/cartoon/fig14.kg.json";
   const std::string clips = "mocap=" + mocap();
   const std::vector<std::string> columns{"clip", "angles", "positions", "bands", "rubber"};
   std::map<std::string, Motion> motions;
@@ -178,7 +179,7 @@ TEST_F(CartoonGraphs, GiveMotionsThatPictureCompareAndMetricsTake) {
 
 TEST_F(CartoonGraphs, PicturesDressACharacterInTheMotionNamedBeforeIt) {
   KINEGRAPH_NEEDS_MOCAP();
-  const std::string file = std::string(KINEGRAPH_SOURCE_DIR) + "/tests/cartoon/cesium_man.kg.json";
+  const std::string file = source_folder() + "/tests/cartoon/cesium_man.kg.json";
   const Ran ran =
       run({"picture", file, "clip.motion", "clip.character", "wild.motion", "clip.character", "rubber.motion",
            "rubber.character", "--var", "mocap=" + mocap(), "-o", path("man.svg"), "--progress", "none"});

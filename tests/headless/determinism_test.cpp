@@ -10,6 +10,7 @@
 
 #include "program.h"
 #include "tests/mocap.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -107,7 +108,7 @@ TEST_F(Determinism, NoNodeCallsTheCLibrarysFunctions) {
   const std::regex calls(
       R"((std::|[^\w:]::)(sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|exp|exp2|expm1|log|log2|log10|log1p|pow|hypot|cbrt|fma|erf|erfc|tgamma|lgamma)[fl]?\()");
   int files = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(KINEGRAPH_SOURCE_DIR "/nodes")) {
+  for (const auto& entry : fs::recursive_directory_iterator(source_folder() + "/nodes")) {
     if (!entry.is_regular_file()) continue;
     ++files;
     std::ifstream in(entry.path());
@@ -122,7 +123,7 @@ TEST_F(Determinism, NoNodeCallsTheCLibrarysFunctions) {
 }
 
 TEST_F(Determinism, GraphsExportTheSameBytesOnEveryCpu) {
-  fs::copy(KINEGRAPH_SOURCE_DIR "/graphs", path("graphs"), fs::copy_options::recursive);
+  fs::copy(source_folder() + "/graphs", path("graphs"), fs::copy_options::recursive);
   // The clips that the others read.
   ASSERT_EQ(run({"run", "graphs/sample_clips.kg.json"}).exit, 0);
   std::vector<std::string> graphs;
@@ -136,7 +137,7 @@ TEST_F(Determinism, GraphsExportTheSameBytesOnEveryCpu) {
 TEST_F(Determinism, TheMainJobExportsTheSameBytesOnEveryCpu) {
   KINEGRAPH_NEEDS_MOCAP();
   int count = 0;
-  for (const auto& entry : fs::directory_iterator(KINEGRAPH_SOURCE_DIR "/tests/main_job")) {
+  for (const auto& entry : fs::directory_iterator(source_folder() + "/tests/main_job")) {
     if (!entry.path().string().ends_with(".kg.json")) continue;
     ++count;
     runs_the_same_everywhere(entry.path().string(), {"--var", "mocap=" + mocap()});

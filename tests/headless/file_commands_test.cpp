@@ -11,6 +11,7 @@
 
 #include "tests/mocap.h"
 #include "tests/nodes/files/bvh_texts.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -33,7 +34,7 @@ class FileCommands : public testing::Test {
   // `streams`: "2>&1" for both, "2>/dev/null" for the results alone.
   Ran run(const std::string& arguments, const std::string& streams) {
     const std::string command =
-        "cd " + folder_ + " && " KINEGRAPH_BIN_DIR "/kinegraph " + arguments + " " + streams;
+        "cd " + folder_ + " && " + bin_folder() + "/kinegraph " + arguments + " " + streams;
     FILE* pipe = popen(command.c_str(), "r");
     std::string output;
     for (int c; (c = std::fgetc(pipe)) != EOF;) output += static_cast<char>(c);

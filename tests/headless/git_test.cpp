@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "program.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -27,9 +28,11 @@ class Git : public ProgramTest {
     write(".gitattributes", "*.kg.json text eol=lf merge=kinegraph diff=kinegraph\n");
     git("init -q -b main . && git config user.name T && git config user.email t@example.org && "
         "git config merge.kinegraph.name 'Kinegraph graphs' && "
-        "git config merge.kinegraph.driver '" KINEGRAPH_BIN_DIR
+        "git config merge.kinegraph.driver '" +
+        bin_folder() +
         "/kinegraph merge %O %A %B -o %A --path %P' && "
-        "git config diff.kinegraph.textconv '" KINEGRAPH_BIN_DIR "/kinegraph diff --textconv'");
+        "git config diff.kinegraph.textconv '" +
+        bin_folder() + "/kinegraph diff --textconv'");
     commit(base, "base");
   }
   // `git ARGUMENTS`; what it says is in "../said" of the folder.
@@ -158,8 +161,7 @@ TEST_F(Git, DiffIsColouredOnATerminalAndNeverUnderNoColor) {
   write("a.kg.json", base);
   write("b.kg.json", changed(base, "\"seconds\": 1", "\"seconds\": 2"));
   const auto on_terminal = [&](const std::string& setting) {
-    const std::string command = "cd '" + path("") + "' && " + setting +
-                                " script -qec '" KINEGRAPH_BIN_DIR
+    const std::string command = "cd '" + path("") + "' && " + setting + " script -qec '" + bin_folder() +
                                 "/kinegraph diff a.kg.json b.kg.json' /dev/null >said 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0);
     return read("said");

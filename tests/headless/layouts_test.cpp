@@ -5,6 +5,7 @@
 
 #include "program.h"
 #include "tests/mocap.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -22,10 +23,10 @@ class Layouts : public ProgramTest {
     fs::create_directories(path(clips));
     for (const char* name : {"cmu/asfamc/17.asf", "cmu/asfamc/17_03.amc"})
       fs::copy(mocap(name), path(clips), fs::copy_options::overwrite_existing);
-    fs::copy(KINEGRAPH_SOURCE_DIR "/graphs/clips/sneak.bvh", path(clips + "/" + clip));
+    fs::copy(source_folder() + "/graphs/clips/sneak.bvh", path(clips + "/" + clip));
     for (const char* name : {"restyle", "clean_feet"}) {
       fs::create_directories(path(lib));
-      fs::copy(KINEGRAPH_SOURCE_DIR "/graphs/pipelines/" + std::string(name) + ".kg.json", path(lib));
+      fs::copy(source_folder() + "/graphs/pipelines/" + std::string(name) + ".kg.json", path(lib));
     }
     write(graphs + "/main.kg.json", graph(R"("walk": {"type": "Load", "params": {"file": ")" + up + clips +
                                           R"(/17_03.amc", "range": [0, 240]}},
@@ -117,8 +118,8 @@ TEST_F(Ci, AMotionMadeWorseFailsWithItsRuleValueAndLimit) {
 
 // Every line of docs/ci.yml that calls kinegraph, in a repository as it is meant for.
 TEST_F(Ci, TheExampleWorkflowDoesWhatItSays) {
-  fs::copy(KINEGRAPH_SOURCE_DIR "/graphs", path("graphs"), fs::copy_options::recursive);
-  std::ifstream workflow(KINEGRAPH_SOURCE_DIR "/docs/ci.yml");
+  fs::copy(source_folder() + "/graphs", path("graphs"), fs::copy_options::recursive);
+  std::ifstream workflow(source_folder() + "/docs/ci.yml");
   int commands = 0;
   for (std::string line, command; std::getline(workflow, line);) {
     const auto begin = line.find("kinegraph ");
@@ -130,8 +131,8 @@ TEST_F(Ci, TheExampleWorkflowDoesWhatItSays) {
       command.pop_back();
       continue;
     }
-    const std::string whole = "cd '" + path("") + "' && PATH='" KINEGRAPH_BIN_DIR ":'\"$PATH\" sh -c '" +
-                              command + "' >ci.log 2>&1";
+    const std::string whole =
+        "cd '" + path("") + "' && PATH='" + bin_folder() + ":'\"$PATH\" sh -c '" + command + "' >ci.log 2>&1";
     EXPECT_EQ(std::system(whole.c_str()), 0) << command << "\n" << read("ci.log");
     ++commands;
     command.clear();

@@ -10,6 +10,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "tests/places.h"
+
 namespace kinegraph {
 
 namespace fs = std::filesystem;
@@ -43,7 +45,7 @@ RunningProgram ProgramTest::start(std::vector<std::string> arguments, std::vecto
                          outputs_ / ("err" + std::to_string(count_))};
   fs::path input = outputs_ / ("in" + std::to_string(count_));
   std::ofstream(input, std::ios::binary) << in;
-  std::string program = KINEGRAPH_BIN_DIR "/kinegraph";
+  std::string program = bin_folder() + "/kinegraph";
   std::vector<char*> words{program.data()};
   for (auto& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "program.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -17,7 +18,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::Not;
 
-const std::string graphs = std::string(KINEGRAPH_SOURCE_DIR) + "/graphs/";
+const std::string graphs = source_folder() + "/graphs/";
 
 // A parameter of each type of node, and a value that no example gives it.
 const std::map<std::string, std::string> changes{

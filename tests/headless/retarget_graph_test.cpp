@@ -6,6 +6,7 @@
 #include "program.h"
 #include "tests/mocap.h"
 #include "tests/nodes/files/plain_files.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -14,7 +15,7 @@ class RetargetGraph : public ProgramTest {};
 
 TEST_F(RetargetGraph, gives_real_characters_the_style_of_a_real_clip) {
   KINEGRAPH_NEEDS_MOCAP();
-  const Ran ran = run({"run", KINEGRAPH_SOURCE_DIR "/tests/headless/style_onto_characters.kg.json", "--var",
+  const Ran ran = run({"run", source_folder() + "/tests/headless/style_onto_characters.kg.json", "--var",
                        "mocap=" + mocap(), "--out", path("out"), "--report", path("report.json")});
   EXPECT_EQ(ran.exit, 0) << ran.out << ran.err;
   const auto report = read_json("report.json");
@@ -35,8 +36,8 @@ TEST_F(RetargetGraph, gives_real_characters_the_style_of_a_real_clip) {
 
 // What a person sees of the saved graph: the figure's shoes on the ground, nowhere far below it.
 TEST_F(RetargetGraph, keeps_the_figures_soles_on_the_ground) {
-  const Ran ran = run(
-      {"run", KINEGRAPH_SOURCE_DIR "/graphs/retarget.kg.json", "--out", path("out"), "--progress", "none"});
+  const Ran ran =
+      run({"run", source_folder() + "/graphs/retarget.kg.json", "--out", path("out"), "--progress", "none"});
   ASSERT_EQ(ran.exit, 0) << ran.out << ran.err;
   PlainFiles files;
   Alone work;
@@ -66,7 +67,7 @@ TEST_F(RetargetGraph, gives_every_character_the_style_of_every_clip) {
                          {"xia/neutral_01_000.bvh", "cmu/bvh/104_HappyStartWalk_3.bvh"}};
   const std::string characters[] = {mocap("gltf/CesiumMan.glb"), mocap("gltf/RiggedFigure.glb"),
                                     mocap("gltf/KayKit_Knight.glb"),
-                                    KINEGRAPH_SOURCE_DIR "/graphs/characters/mannequin.glb"};
+                                    source_folder() + "/graphs/characters/mannequin.glb"};
   for (const std::string& character : characters)
     for (const auto& [source, style] : pairs) {
       SCOPED_TRACE(character + ": " + source + " in the style of " + style);
@@ -74,7 +75,7 @@ TEST_F(RetargetGraph, gives_every_character_the_style_of_every_clip) {
         return std::string(clip.starts_with("cmu/bvh") ? "drop" : "keep");
       };
       const Ran ran =
-          run({"run", KINEGRAPH_SOURCE_DIR "/graphs/retarget.kg.json", "--set", "source=" + mocap(source),
+          run({"run", source_folder() + "/graphs/retarget.kg.json", "--set", "source=" + mocap(source),
                "--set", "style=" + mocap(style), "--set", "character=" + character, "--set",
                "walk.rest_frame=" + drop(source), "--set", "sneak.rest_frame=" + drop(style), "--out",
                path("out"), "--report", path("report.json"), "--progress", "none"});

@@ -8,6 +8,7 @@
 
 #include "program.h"
 #include "tests/mocap.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -60,13 +61,13 @@ class Sameness : public ProgramTest {
   // that uses other graphs has keys of inner nodes too, which keep their names when the outer ones are
   // renamed: nested_test covers it.
   std::vector<std::string> graphs() {
-    fs::copy(KINEGRAPH_SOURCE_DIR "/graphs", path("graphs"), fs::copy_options::recursive);
+    fs::copy(source_folder() + "/graphs", path("graphs"), fs::copy_options::recursive);
     std::vector<std::string> all;
     for (const auto& entry : fs::directory_iterator(path("graphs")))
       if (entry.path().string().ends_with(".kg.json") && writes_alone(entry.path()))
         all.push_back("graphs/" + entry.path().filename().string());
     if (fs::exists(mocap("README.md")))
-      for (const auto& entry : fs::directory_iterator(KINEGRAPH_SOURCE_DIR "/tests/main_job"))
+      for (const auto& entry : fs::directory_iterator(source_folder() + "/tests/main_job"))
         if (entry.path().string().ends_with(".kg.json")) {
           fs::copy(entry.path(), path("graphs"));
           all.push_back("graphs/" + entry.path().filename().string());

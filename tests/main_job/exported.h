@@ -15,6 +15,7 @@
 #include "graph/evaluate/file_store.h"
 #include "nodes/files/motion_file.h"
 #include "tests/mocap.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 
@@ -31,7 +32,7 @@ class Exported {
         "'{}/kinegraph' run '{}/{}' --var 'mocap={}' {} --out '{}' --progress none --report '{}/report.json' "
         "> "
         "'{}/log' 2>&1",
-        KINEGRAPH_BIN_DIR, KINEGRAPH_SOURCE_DIR, graph, mocap(), more, out, out, out);
+        bin_folder(), source_folder(), graph, mocap(), more, out, out, out);
     const int status = std::system(command.c_str());
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
     std::ifstream log(folder_ / "log");

@@ -5,6 +5,7 @@
 #include "exported.h"
 #include "nodes/feet/detect_contacts.h"
 #include "tests/nodes/feet/independent_feet.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -13,9 +14,9 @@ namespace {
 Motion got(const std::string& graph, const std::string& port) {
   namespace fs = std::filesystem;
   const fs::path file = fs::temp_directory_path() / fmt::format("kinegraph_steps_{}.bvh", ::getpid());
-  const std::string command = fmt::format(
-      "'{}/kinegraph' get '{}/{}' {} -o '{}' --var 'mocap={}' --progress none > '{}.log' 2>&1",
-      KINEGRAPH_BIN_DIR, KINEGRAPH_SOURCE_DIR, graph, port, file.string(), mocap(), file.string());
+  const std::string command =
+      fmt::format("'{}/kinegraph' get '{}/{}' {} -o '{}' --var 'mocap={}' --progress none > '{}.log' 2>&1",
+                  bin_folder(), source_folder(), graph, port, file.string(), mocap(), file.string());
   const int status = std::system(command.c_str());
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(command);
   FileStore files;

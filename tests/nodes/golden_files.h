@@ -7,10 +7,11 @@
 #include <string>
 
 #include "graph/file/parse_json.h"
+#include "tests/places.h"
 
 namespace kinegraph::golden {
 
-inline const std::string folder = KINEGRAPH_SOURCE_DIR "/tests/nodes/golden/";
+inline const std::string folder = source_folder() + "/tests/nodes/golden/";
 
 // KINEGRAPH_UPDATE_GOLDEN=1 build/release/bin/test_nodes --gtest_filter='Golden*' writes what is new.
 inline bool updating() {

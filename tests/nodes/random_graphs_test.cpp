@@ -18,6 +18,7 @@
 #include "nodes/all_nodes.h"
 #include "tests/graph/random_edits.h"
 #include "tests/nodes/random_graph.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -34,7 +35,7 @@ std::string all_text(const Diagnostics& problems) {
 }
 
 namespace fs = std::filesystem;
-const fs::path source = KINEGRAPH_SOURCE_DIR;
+const fs::path source = source_folder();
 
 std::string content(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -7,6 +7,7 @@
 #include <QToolButton>
 
 #include "gui/canvas/canvas_edits.h"
+#include "tests/places.h"
 #include "tests/screenshots/shots.h"
 
 namespace kinegraph::shots {
@@ -89,7 +90,7 @@ void questions(const Theme& theme, const QDir& into, const QString& end) {
     QDir(shot.folder.path()).mkpath("pipelines");
     for (const char* name : {"reuse", "pipelines/sneakify", "pipelines/restyle", "pipelines/clean_feet"})
       QFile::copy(Shot::example(name), shot.folder.filePath(QString(name) + ".kg.json"));
-    QFile::link(QString(KINEGRAPH_SOURCE_DIR) + "/graphs/clips", shot.folder.filePath("clips"));
+    QFile::link(QString::fromStdString(source_folder()) + "/graphs/clips", shot.folder.filePath("clips"));
     shot.window.open(shot.folder.filePath("reuse.kg.json"));
     shot.wait();
     shot.window.open(shot.folder.filePath("pipelines/sneakify.kg.json"));

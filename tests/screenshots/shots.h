@@ -15,6 +15,7 @@
 #include "gui/window/main_window.h"
 #include "gui/window/screenshot.h"
 #include "nodes/all_nodes.h"
+#include "tests/places.h"
 
 namespace kinegraph::shots {
 
@@ -36,7 +37,7 @@ struct Shot {
   Viewer& viewer() { return *window.findChild<Viewer*>(); }
 
   static QString example(const QString& name) {
-    return QString(KINEGRAPH_SOURCE_DIR) + "/graphs/" + name + ".kg.json";
+    return QString::fromStdString(source_folder()) + "/graphs/" + name + ".kg.json";
   }
   void open(const QString& name) {
     window.open(example(name));
@@ -45,7 +46,7 @@ struct Shot {
   // A graph written down here, in a folder of its own beside the sample clips.
   QString text(const QByteArray& nodes, const QByteArray& rest = {}) {
     for (const char* beside : {"clips", "characters"})
-      QFile::link(QString(KINEGRAPH_SOURCE_DIR) + "/graphs/" + beside, folder.filePath(beside));
+      QFile::link(QString::fromStdString(source_folder()) + "/graphs/" + beside, folder.filePath(beside));
     const QString path = folder.filePath("example.kg.json");
     QFile file(path);
     if (file.open(QIODevice::WriteOnly))

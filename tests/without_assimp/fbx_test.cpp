@@ -3,6 +3,7 @@
 
 #include "nodes/files/motion_file.h"
 #include "tests/nodes/files/plain_files.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -29,7 +30,7 @@ TEST(WithoutAssimp, FbxIsRefusedWithWhatToDo) {
 TEST(WithoutAssimp, OtherFilesAreReadAsEver) {
   PlainFiles files;
   Alone work;
-  const MotionFile walk = read_motion_file(KINEGRAPH_SOURCE_DIR "/graphs/clips/walk.bvh", {}, files, work);
+  const MotionFile walk = read_motion_file(source_folder() + "/graphs/clips/walk.bvh", {}, files, work);
   EXPECT_GT(walk.motion()->frames(), 100u);
 }
 

@@ -11,6 +11,7 @@
 #include "tests/nodes/cartoon/cartoon_clips.h"
 #include "tests/nodes/run_node.h"
 #include "tests/nodes/time/walks.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 
@@ -295,7 +296,7 @@ TEST(RubberSkin, ClosesGapsBetweenShellsWithMoreSubJoints) {
   Alone work;
   PlainFiles files;
   const MotionFile file =
-      read_motion_file(KINEGRAPH_SOURCE_DIR "/graphs/characters/mannequin.glb", {}, files, work);
+      read_motion_file(source_folder() + "/graphs/characters/mannequin.glb", {}, files, work);
   const auto& mannequin = dynamic_cast<const Character&>(*file.find("character"));
   const Motion body(mannequin.skeleton, std::make_shared<SourceFacts>(), 30, 1,
                     std::vector<bool>(mannequin.skeleton->joints.size(), false));
@@ -330,7 +331,7 @@ TEST(RubberSkin, WringsNoLimbWhoseFramesStandApart) {
   Alone work;
   PlainFiles files;
   const MotionFile file =
-      read_motion_file(KINEGRAPH_SOURCE_DIR "/graphs/characters/mannequin.glb", {}, files, work);
+      read_motion_file(source_folder() + "/graphs/characters/mannequin.glb", {}, files, work);
   const auto& mannequin = dynamic_cast<const Character&>(*file.find("character"));
   const Motion body(mannequin.skeleton, std::make_shared<SourceFacts>(), 30, 1,
                     std::vector<bool>(mannequin.skeleton->joints.size(), false));

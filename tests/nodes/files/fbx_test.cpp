@@ -9,6 +9,7 @@
 #include "nodes/motion/kinematics.h"
 #include "tests/nodes/files/fbx_texts.h"
 #include "tests/nodes/files/plain_files.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -76,7 +77,7 @@ TEST(Fbx, MultipliesPivotsAndPreRotationsOut) {
 // place.
 TEST(Fbx, AJointThatOnlyMovesKeepsItsPreRotationOnce) {
   if (without_assimp()) GTEST_SKIP() << "built without Assimp";
-  std::ifstream in(KINEGRAPH_SOURCE_DIR "/tests/nodes/golden/nodes/clips/swing.fbx", std::ios::binary);
+  std::ifstream in(source_folder() + "/tests/nodes/golden/nodes/clips/swing.fbx", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   Alone work;
   const Motion motion = read(bytes, work).motion;

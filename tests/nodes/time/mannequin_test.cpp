@@ -11,6 +11,7 @@
 #include "nodes/motion/character.h"
 #include "tests/nodes/files/plain_files.h"
 #include "tests/nodes/time/other_bodies.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -112,7 +113,7 @@ TEST(Mannequin, is_what_this_makes) {
       encode_motion_file("mannequin.glb", "glb",
                          {{"character", std::make_shared<const Character>(mannequin())}}, {}, work)
           .bytes;
-  const std::string path = std::string(KINEGRAPH_SOURCE_DIR) + "/graphs/characters/mannequin.glb";
+  const std::string path = source_folder() + "/graphs/characters/mannequin.glb";
   if (std::getenv("KINEGRAPH_UPDATE_GOLDEN")) std::ofstream(path, std::ios::binary) << bytes;
   std::ifstream in(path, std::ios::binary);
   const std::string kept((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
@@ -122,7 +123,7 @@ TEST(Mannequin, is_what_this_makes) {
 TEST(Mannequin, reads_back_with_every_vertex_in_its_place) {
   Alone work;
   PlainFiles files;
-  const std::string path = std::string(KINEGRAPH_SOURCE_DIR) + "/graphs/characters/mannequin.glb";
+  const std::string path = source_folder() + "/graphs/characters/mannequin.glb";
   const MotionFile file = read_motion_file(path, {}, files, work);
   const auto& read = dynamic_cast<const Character&>(*file.find("character"));
   const Character made = mannequin();

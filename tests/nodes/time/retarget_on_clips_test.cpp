@@ -11,6 +11,7 @@
 #include "tests/mocap.h"
 #include "tests/nodes/files/plain_files.h"
 #include "tests/nodes/time/retarget_measures.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -144,7 +145,7 @@ NamedBody mannequin() {
   PlainFiles files;
   Alone work;
   const MotionFile file =
-      read_motion_file(KINEGRAPH_SOURCE_DIR "/graphs/characters/mannequin.glb", {}, files, work);
+      read_motion_file(source_folder() + "/graphs/characters/mannequin.glb", {}, files, work);
   JointRoles roles = both_sides({{"pelvis", "mixamorig:Hips"},
                                  {"spine.1", "mixamorig:Spine"},
                                  {"spine.2", "mixamorig:Spine1"},

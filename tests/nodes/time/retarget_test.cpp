@@ -12,6 +12,7 @@
 #include "tests/nodes/motion/sample_motion.h"
 #include "tests/nodes/run_node.h"
 #include "tests/nodes/time/other_bodies.h"
+#include "tests/places.h"
 
 namespace kinegraph {
 namespace {
@@ -67,7 +68,7 @@ class Retarget : public ::testing::Test {
   static std::shared_ptr<const Character> mannequin() {
     PlainFiles files;
     Alone quiet;
-    const std::string path = std::string(KINEGRAPH_SOURCE_DIR) + "/graphs/characters/mannequin.glb";
+    const std::string path = source_folder() + "/graphs/characters/mannequin.glb";
     return std::make_shared<const Character>(
         dynamic_cast<const Character&>(*read_motion_file(path, {}, files, quiet).find("character")));
   }
