@@ -200,7 +200,6 @@ TEST(EditorPages, AGraphNodeWhoseFileIsGoneIsMendedAmongItsParameters) {
 
 TEST(EditorPages, EachPageKeepsThePinsOfItsViewer) {
   Editor editor;
-  const QString graphs = QString::fromStdString(source_folder()) + "/graphs/";
   editor.window.open(graphs + "style_transfer.kg.json");
   auto* viewer = editor.window.findChild<Viewer*>();
   viewer->pin(1, "walk");
