@@ -529,7 +529,7 @@ ReadResult read_and_validate(std::string_view text, const Registry& registry,
   ReadResult result = read_document(text, options.file, registry);
   for (Diagnostic& problem : validate(result.document, registry, options))
     result.problems.push_back(std::move(problem));
-  drop_consequences(result.problems);
+  drop_consequences(result.problems, result.in_doubt);
   std::stable_sort(result.problems.begin(), result.problems.end(),
                    [](const Diagnostic& a, const Diagnostic& b) {
                      return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);

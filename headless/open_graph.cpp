@@ -78,6 +78,7 @@ Opened open_graph(const std::string& argument, const Registry& registry, bool mi
   opened.document = std::move(read.document);
   opened.problems = std::move(read.problems);
   opened.migrated = read.migrated;
+  opened.in_doubt = read.in_doubt;
   return opened;
 }
 
@@ -91,7 +92,7 @@ Diagnostics all_problems(const Opened& opened, const Registry& registry, const V
     });
     if (!told) all.push_back(std::move(problem));
   }
-  drop_consequences(all);
+  drop_consequences(all, opened.in_doubt);
   std::stable_sort(all.begin(), all.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
   });

@@ -1,5 +1,7 @@
 #include "graph/file/mended_text.h"
 
+#include <algorithm>
+
 namespace kinegraph {
 
 void JsonCursor::advance() {
@@ -56,6 +58,20 @@ bool JsonCursor::skip(char separator) {
   if (skip_mend(separator)) return true;
   if (mend() || peek() != separator) return false;
   advance();
+  return true;
+}
+
+bool put_in(std::vector<Mend>& mends, const Mend& mend) {
+  const auto next = std::find_if(mends.begin(), mends.end(), [&](const Mend& other) {
+    return other.at > mend.at || (other.at == mend.at && other.length > 0 && mend.length == 0);
+  });
+  if (next != mends.end() && mend.at + mend.length > next->at) return false;
+  if (next != mends.begin()) {
+    const Mend& before = *std::prev(next);
+    if (before.at + before.length > mend.at) return false;
+    if (before.at == mend.at && mend.length == 0) return false;
+  }
+  mends.insert(next, mend);
   return true;
 }
 

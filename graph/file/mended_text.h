@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "graph/json.h"
 
@@ -13,8 +14,9 @@ namespace kinegraph {
 // can be judged as well.
 struct Mend {
   std::size_t at = 0, length = 0;  // bytes of the text
-  std::string text;                // a whole value or key; or one comma, colon or blank between such
-  bool unread = false;             // a value that isn't known: `text` only keeps its place
+  // A whole value or key; one comma, colon or blank between such; or brackets that close what is open.
+  std::string text;
+  bool unread = false;  // a value that isn't known: `text` only keeps its place
 };
 
 // A place in a text with mends, all that lie before it being counted as read. It only goes forward, so that
@@ -51,6 +53,9 @@ class JsonCursor {
   Place place_{1, 1};
 };
 
+// Keeps them in the text's order. False: something else is mended there already, so that the reading wouldn't
+// get on.
+bool put_in(std::vector<Mend>& mends, const Mend& mend);
 // The text with its mends.
 std::string mended(std::string_view text, std::span<const Mend> mends);
 

@@ -4,73 +4,25 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstring>
 #include <limits>
 #include <set>
 #include <span>
 #include <tuple>
 #include <utility>
 
+#include "graph/file/bracket_rescue.h"
 #include "graph/file/json_mistake.h"
+#include "graph/file/text_bytes.h"
 
 namespace kinegraph {
 
 namespace {
 
+constexpr std::size_t largest_rescued = std::size_t{4} << 20;  // bytes
+constexpr int most_guesses = 64;
+
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-
-// The offset of the first byte that isn't UTF-8 (RFC 3629: no overlong forms, no surrogates), or npos.
-std::size_t first_bad_utf8(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const auto continues = [&](std::size_t i) { return (byte(i) & 0xC0) == 0x80; };
-  for (std::size_t i = 0; i < text.size();) {
-    std::uint64_t eight = 0;
-    if (i + sizeof eight <= text.size()) {  // most of a graph is ASCII
-      std::memcpy(&eight, text.data() + i, sizeof eight);
-      if ((eight & 0x8080808080808080u) == 0) {
-        i += sizeof eight;
-        continue;
-      }
-    }
-    const unsigned c = byte(i), next = byte(i + 1);
-    if (c < 0x80) {
-      i += 1;
-    } else if (c >= 0xC2 && c <= 0xDF && continues(i + 1)) {
-      i += 2;
-    } else if (c >= 0xE0 && c <= 0xEF && continues(i + 1) && continues(i + 2) &&
-               !(c == 0xE0 && next < 0xA0) && !(c == 0xED && next > 0x9F)) {
-      i += 3;
-    } else if (c >= 0xF0 && c <= 0xF4 && continues(i + 1) && continues(i + 2) && continues(i + 3) &&
-               !(c == 0xF0 && next < 0x90) && !(c == 0xF4 && next > 0x8F)) {
-      i += 4;
-    } else {
-      return i;
-    }
-  }
-  return std::string_view::npos;
-}
-
-// Git's markers begin a line, where JSON can hold no text of its own: a string has no raw line break in it.
-void find_conflict_markers(std::string_view text, Diagnostics& found) {
-  bool inside = false;
-  int line = 1;
-  for (std::size_t start = 0; start < text.size(); ++line) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    const std::string_view row = text.substr(start, end - start);
-    const bool opens = row.starts_with("<<<<<<<");
-    if (opens || row.starts_with(">>>>>>>") || row.starts_with("=======") || row.starts_with("|||||||")) {
-      if (opens || !inside)
-        found.push_back(
-            error("conflict-markers", fmt::format("git's conflict marker {}", row.substr(0, 7)))
-                .in_file("", {line, 1})
-                .hinting("finish the merge: keep a side at each marker, take the markers out, then "
-                         "kinegraph fmt"));
-      inside = !row.starts_with(">>>>>>>");
-    }
-    start = end + 1;
-  }
 }
 
 // Whether a number too large or too small for a double is too large: by the place of its first digit that
@@ -104,9 +56,27 @@ class Parser {
   const Diagnostics& duplicate_keys() const { return duplicate_keys_; }
   const std::optional<JsonMistake>& mistake() const { return mistake_; }  // that ended the reading
 
+  // Where and how the reading ended, as bytes of the text as it stands.
+  struct Stop {
+    Wanted wanted = Wanted::value;
+    std::size_t at = 0;
+    std::optional<std::size_t> scalar;  // where the last token begins, if it is a string, number or word
+  };
+  Stop stop() const {
+    const auto offset = [&](std::size_t mended) {
+      JsonCursor cursor(whole_, mends_);
+      cursor.advance_to_mended(mended);
+      return cursor.offset();
+    };
+    Stop stop{wanted_, offset(at_), {}};
+    if (scalar_end_ == token_end_ && token_end_ > 0) stop.scalar = offset(scalar_start_);
+    return stop;
+  }
+
  private:
   // Explains what stands behind the last token. False, for the caller to return.
   bool fail(Wanted wanted) {
+    wanted_ = wanted;
     JsonCursor token_end(whole_, mends_), stopped(whole_, mends_);
     token_end.advance_to_mended(token_end_);
     stopped.advance_to_mended(at_);
@@ -132,6 +102,10 @@ class Parser {
     }
   }
   void end_token() { token_end_ = at_; }
+  void end_scalar(std::size_t start) {
+    scalar_start_ = start;
+    scalar_end_ = token_end_ = at_;
+  }
 
   bool value(Json& into) {
     skip_space();
@@ -239,7 +213,7 @@ class Parser {
   bool word(std::string_view word) {
     if (!text_.substr(at_).starts_with(word)) return fail(Wanted::value);
     at_ += word.size();
-    end_token();
+    end_scalar(at_ - word.size());
     return true;
   }
 
@@ -252,16 +226,14 @@ class Parser {
       const std::string_view spelling = whole_.substr(mend->at, mend->length);
       into = Json::number_as_read(std::numeric_limits<double>::quiet_NaN(),
                                   std::string(spelling.empty() ? "nothing" : spelling));
-      at_ = end;
-      end_token();
+      end_scalar(std::exchange(at_, end));
       return true;
     }
     double number = 0;
     const auto read = std::from_chars(token.data(), token.data() + token.size(), number);
     if (read.ec == std::errc::result_out_of_range && is_beyond(token)) return fail(Wanted::value);
     into = Json::number_as_read(number, std::string(token));
-    at_ = end;
-    end_token();
+    end_scalar(std::exchange(at_, end));
     return true;
   }
   // The mend here that stands for a value that isn't known.
@@ -292,7 +264,7 @@ class Parser {
       }
     }
     at_ = i + 1;
-    end_token();
+    end_scalar(start);
     return true;
   }
 
@@ -345,6 +317,8 @@ class Parser {
   std::optional<JsonMistake> mistake_;
   std::size_t at_ = 0;
   std::size_t token_end_ = 0;
+  std::size_t scalar_start_ = 0, scalar_end_ = 0;
+  Wanted wanted_ = Wanted::value;
   int line_ = 1;
   std::size_t line_start_ = 0;  // later by every byte of the line, so far, that only continues a character
   int depth_ = 0;
@@ -354,43 +328,145 @@ bool is_same(Place a, Place b) {
   return a.line == b.line && a.column == b.column;
 }
 
-// False: something else is mended there already, so that the reading wouldn't get on.
-bool put_in(std::vector<Mend>& mends, const Mend& mend) {
-  const auto next = std::find_if(mends.begin(), mends.end(), [&](const Mend& other) {
-    return other.at > mend.at || (other.at == mend.at && other.length > 0 && mend.length == 0);
-  });
-  if (next != mends.end() && mend.at + mend.length > next->at) return false;
-  if (next != mends.begin()) {
-    const Mend& before = *std::prev(next);
-    if (before.at + before.length > mend.at) return false;
-    if (before.at == mend.at && mend.length == 0) return false;
+struct Reading {
+  Json json;
+  Diagnostics problems;
+  std::vector<Mend> mends;
+  bool whole = false;  // to its end; otherwise there is no value
+  bool in_doubt = false;
+  std::optional<Parser::Stop> stop;
+  bool stopped_by_depth = false;
+};
+
+// Reads on past what can only be meant in one way, if it may.
+Reading read_with(std::vector<Mend> mends, std::string_view text, bool past,
+                  std::size_t budget = largest_json) {
+  Reading reading;
+  Place last;
+  for (std::size_t read = 0;;) {
+    const std::string as_meant = mends.empty() ? "" : mended(text, mends);
+    Parser parser = mends.empty() ? Parser(text) : Parser(text, mends, as_meant);
+    reading.whole = parser.whole(reading.json);
+    const auto& mistake = parser.mistake();
+    if (mistake && !is_same(mistake->problem.place, last)) reading.problems.push_back(mistake->problem);
+    read += text.size();
+    if (!reading.whole && past && read <= budget && mistake->mend && put_in(mends, *mistake->mend)) {
+      last = mistake->problem.place;
+      continue;
+    }
+    const Diagnostics& again = parser.duplicate_keys();
+    reading.problems.insert(reading.problems.end(), again.begin(), again.end());
+    if (!reading.whole) {
+      reading.stop = parser.stop();
+      reading.stopped_by_depth = mistake->problem.code == "too-deep";
+    }
+    reading.mends = std::move(mends);
+    return reading;
   }
-  mends.insert(next, mend);
-  return true;
 }
 
-// The text with a ? for each byte that isn't UTF-8; the first of each line is told.
-std::string as_utf8(std::string_view text, Diagnostics& found) {
-  std::string whole(text);
-  JsonCursor cursor(whole);
-  for (int line = 0;;) {
-    const std::size_t bad = first_bad_utf8(cursor.rest());
-    if (bad == std::string_view::npos) return whole;
-    const std::size_t at = cursor.offset() + bad;
-    const char byte = std::exchange(whole[at], '?');
-    cursor.advance_to(at);
-    if (line == cursor.place().line) continue;
-    line = cursor.place().line;
-    found.push_back(
-        error("bad-utf8", fmt::format("byte 0x{:02x} isn't UTF-8", static_cast<unsigned char>(byte)))
-            .hinting("save the file as UTF-8"));
-    found.back().place = cursor.place();
-  }
+Place place_of(std::string_view text, std::size_t offset) {
+  JsonCursor cursor(text);
+  cursor.advance_to(offset);
+  return cursor.place();
 }
 
-// The value, or null where the reading stopped: at the first problem, or, if it may go `past` them, at the
-// first that leaves open what was meant.
-Json parse(std::string_view text, bool past, Diagnostics& found) {
+// Where what can't be read at `at` ends: before the next comma or bracket that closes more than opened in it,
+// or with its line.
+std::size_t end_of_unread(std::string_view text, std::size_t at) {
+  int open = 0;
+  std::size_t i = at;
+  for (; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') {
+      const std::size_t end = text.find_first_of("\"\n", i + 1);
+      if (end != text.npos && text[end] == '"') i = end;
+    } else if (c == '{' || c == '[') {
+      ++open;
+    } else if (c == '}' || c == ']') {
+      if (open-- == 0) break;
+    } else if (open == 0 && (c == ',' || c == '\n')) {
+      break;
+    }
+  }
+  while (i > at && (text[i - 1] == ' ' || text[i - 1] == '\t' || text[i - 1] == '\r')) --i;
+  return i;
+}
+
+// What to read instead of what nobody can tell the meaning of: a value that isn't known, or nothing. It
+// begins where `at` then stands.
+std::optional<Mend> leave_out(std::string_view text, const Parser::Stop& stop, std::size_t& at) {
+  const std::size_t end = end_of_unread(text, stop.at);
+  at = stop.at;
+  switch (stop.wanted) {
+    case Wanted::value:
+      return Mend{at, end - at, "0", true};
+    case Wanted::colon:
+      return Mend{at, end - at, ": 0", true};
+    case Wanted::member_end:
+    case Wanted::element_end:
+      if (stop.scalar) at = *stop.scalar;
+      if (end == stop.at) return {};
+      return stop.scalar ? Mend{at, end - at, "0", true} : Mend{at, end - at, " "};
+    case Wanted::name:
+      if (end == at) return {};
+      return Mend{at, end - at, " "};
+    case Wanted::end:
+      return Mend{at, text.size() - at, " "};
+  }
+  return {};
+}
+
+// Reads what only guesses can read, for its problems to be told: of a line about which one was made, no
+// further mistake of form is. Nothing: that doesn't get to the end either.
+std::optional<Reading> read_rescued(std::string_view text) {
+  Rescue rescue = rescue_brackets(text);
+  std::set<int> guessed;  // lines
+  Reading all;
+  all.mends = std::move(rescue.mends);
+  all.in_doubt = rescue.in_doubt;
+  for (Slip& slip : rescue.slips) {
+    slip.problem.place = place_of(text, slip.at);
+    guessed.insert(slip.problem.place.line);
+    all.problems.push_back(std::move(slip.problem));
+  }
+  for (int guesses = 0; guesses < most_guesses; ++guesses) {
+    Reading next = read_with(std::move(all.mends), text, true, largest_json / most_guesses);
+    std::optional<Diagnostic> stuck;
+    if (!next.whole && !next.problems.empty()) {
+      // Told last, before the keys that stand twice, which are told by the reading that gets to the end.
+      std::erase_if(next.problems, [](const Diagnostic& problem) { return problem.code == "duplicate-key"; });
+      if (!next.problems.empty()) {
+        stuck = std::move(next.problems.back());
+        next.problems.pop_back();
+      }
+    }
+    for (Diagnostic& problem : next.problems) {
+      const bool of_form = problem.code == "syntax" || problem.code == "trailing-comma";
+      if (!of_form || !guessed.contains(problem.place.line)) all.problems.push_back(std::move(problem));
+    }
+    if (next.whole) {
+      all.json = std::move(next.json);
+      all.whole = true;
+      return all;
+    }
+    std::size_t at = 0;
+    const auto mend = leave_out(text, *next.stop, at);
+    if (next.stopped_by_depth || !mend || !put_in(next.mends, *mend)) return {};
+    if (next.stop->wanted == Wanted::end) all.in_doubt = true;
+    const Place place = place_of(text, at);
+    if (stuck && guessed.insert(place.line).second) {
+      stuck->place = place;
+      all.problems.push_back(std::move(*stuck));
+    }
+    all.mends = std::move(next.mends);
+  }
+  return {};
+}
+
+// The value, or null where the reading stopped: at the first problem, or, if it may go `past` them, where
+// even guessing what was meant leads no further.
+Json parse(std::string_view text, bool past, Diagnostics& found, bool& in_doubt) {
   const auto tell = [&](Diagnostic diagnostic, Place place) {
     diagnostic.place = place;
     found.push_back(std::move(diagnostic));
@@ -419,31 +495,30 @@ Json parse(std::string_view text, bool past, Diagnostics& found) {
     text = valid;
   }
 
-  std::vector<Mend> mends;
-  Place last;
-  for (std::size_t read = 0;;) {
-    const std::string as_meant = mends.empty() ? "" : mended(text, mends);
-    Parser parser = mends.empty() ? Parser(text) : Parser(text, mends, as_meant);
-    Json json;
-    const bool whole_is_read = parser.whole(json);
-    const auto& mistake = parser.mistake();
-    if (mistake && !is_same(mistake->problem.place, last)) found.push_back(mistake->problem);
-    read += text.size();
-    if (!whole_is_read && past && read <= largest_json && mistake->mend && put_in(mends, *mistake->mend)) {
-      last = mistake->problem.place;
-      continue;
+  Reading first = read_with({}, text, past);
+  const bool may_be_rescued =
+      past && !first.whole && text.size() <= largest_rescued && !first.stopped_by_depth;
+  if (may_be_rescued) {
+    if (std::optional<Reading> rescued = read_rescued(text)) {
+      first = std::move(*rescued);
     }
-    found.insert(found.end(), parser.duplicate_keys().begin(), parser.duplicate_keys().end());
-    return whole_is_read ? std::move(json) : Json();
   }
+  found.insert(found.end(), first.problems.begin(), first.problems.end());
+  in_doubt = first.in_doubt;
+  return first.whole ? std::move(first.json) : Json();
 }
 
-Json parse(std::string_view text, const std::string& file, bool past, Diagnostics& problems) {
+Json parse(std::string_view text, const std::string& file, bool past, Diagnostics& problems, bool& in_doubt) {
   Diagnostics found;
-  Json json = parse(text, past, found);
+  Json json = parse(text, past, found, in_doubt);
   std::stable_sort(found.begin(), found.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
   });
+  found.erase(std::unique(found.begin(), found.end(),
+                          [](const Diagnostic& a, const Diagnostic& b) {
+                            return is_same(a.place, b.place) && a.code == b.code;
+                          }),
+              found.end());
   for (Diagnostic& problem : found) {
     problem.file = file;
     problems.push_back(std::move(problem));
@@ -454,14 +529,29 @@ Json parse(std::string_view text, const std::string& file, bool past, Diagnostic
 }  // namespace
 
 Json parse_json(std::string_view text, const std::string& file, Diagnostics& problems) {
-  return parse(text, file, false, problems);
+  bool in_doubt = false;
+  return parse(text, file, false, problems, in_doubt);
 }
 
-Json parse_json_past_mistakes(std::string_view text, const std::string& file, Diagnostics& problems) {
-  return parse(text, file, true, problems);
+ReadPast parse_json_past_mistakes(std::string_view text, const std::string& file, Diagnostics& problems) {
+  ReadPast read;
+  read.json = parse(text, file, true, problems, read.in_doubt);
+  return read;
 }
 
-void drop_consequences(Diagnostics& problems) {
+void drop_consequences(Diagnostics& problems, bool in_doubt) {
+  // Of what is there, whatever may be missing or stand elsewhere.
+  const std::set<std::string_view> certain = {
+      "syntax",        "bad-number",         "not-finite",      "trailing-comma",
+      "comment",       "bad-utf8",           "byte-order-mark", "not-a-graph",
+      "bad-version",   "newer-schema",       "unknown-type",    "newer-version",
+      "unknown-param", "unknown-port",       "out-of-range",    "bad-range",
+      "bad-choice",    "bad-value",          "wrong-length",    "bad-link",
+      "needs-list",    "one-link",           "type-mismatch",   "not-an-integer",
+      "missing-file",  "not-a-regular-file", "leads-outside",   "absolute-path",
+      "backslash-path"};
+  if (in_doubt)
+    std::erase_if(problems, [&](const Diagnostic& problem) { return !certain.contains(problem.code); });
   const std::set<std::string_view> of_values = {"syntax", "bad-number", "not-finite"},
                                    of_keys = {"unknown-key", "unknown-param", "unknown-port", "bad-name",
                                               "duplicate-key"};

@@ -18,12 +18,22 @@ inline constexpr int deepest_json = 64;                             // levels of
 // ("conflict-markers"). Problems go to `problems`, each with line and column (both from 1, columns in
 // characters); on one that stops the reading the result is null. `file` is how messages name the text.
 Json parse_json(std::string_view text, const std::string& file, Diagnostics& problems);
-// Reads on past mistakes that can only be meant in one way (commas too many or missing, comments, single
-// quotes, bare words, 012, NaN …), telling each, so that the rest of the file can be judged as well; on
-// others it stops as parse_json() does. A number that isn't known is NaN, spelled as it stood. With an error
-// among `problems` the value is only for judging.
-Json parse_json_past_mistakes(std::string_view text, const std::string& file, Diagnostics& problems);
-// Where a value couldn't be read, takes out what was said of its meaning: one mistake, one message.
-void drop_consequences(Diagnostics& problems);
+
+// What was read of a text that may hold mistakes. With an error among its problems it is only for judging.
+struct ReadPast {
+  Json json;  // null where the reading came to no end
+  // A bracket is missing and nothing says where, or the text ends too early: of what is missing there, and of
+  // where things stand, nothing is certain.
+  bool in_doubt = false;
+};
+// Reads on past mistakes, telling each, so that the rest of the file can be judged as well: first those that
+// can only be meant in one way (commas too many or missing, comments, single quotes, bare words, 012, NaN …);
+// where that doesn't lead to the end, past brackets and quotes that are missing or too many, by what the text
+// gives as evidence (bracket_rescue.h), and past what can't be read at all. A value that isn't known is the
+// number NaN, spelled as it stood.
+ReadPast parse_json_past_mistakes(std::string_view text, const std::string& file, Diagnostics& problems);
+// Where a value couldn't be read, takes out what was said of its meaning: one mistake, one message. Of a text
+// `in_doubt`, leaves only what is certain.
+void drop_consequences(Diagnostics& problems, bool in_doubt = false);
 
 }  // namespace kinegraph

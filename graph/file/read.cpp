@@ -42,7 +42,9 @@ class Reader {
           {1, 1});
       return std::move(result_);
     }
-    Json top = parse_json_past_mistakes(text_, file_, result_.problems);
+    ReadPast parsed = parse_json_past_mistakes(text_, file_, result_.problems);
+    result_.in_doubt = parsed.in_doubt;
+    Json& top = parsed.json;
     if (top.is_null() && has_error(result_.problems)) return std::move(result_);
     if (!top.is_object()) {
       add(error("not-a-graph", fmt::format("the file holds {}", name_of(top.kind())))
@@ -448,7 +450,7 @@ class Reader {
 ReadResult read_document(std::string_view text, const std::string& file, const Registry& registry,
                          bool migrate) {
   ReadResult result = Reader(text, file, registry, migrate).read();
-  drop_consequences(result.problems);
+  drop_consequences(result.problems, result.in_doubt);
   return result;
 }
 

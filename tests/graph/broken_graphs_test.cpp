@@ -97,6 +97,28 @@ const Mistake mistakes[] = {
 "inputs": {"motion": "a.motion"}})"),
      "duplicate-key", 2, "\"op\"", "", "", "keep one"},
 
+    {"UnclosedNode", nodes("\"a\": {\"type\": \"Load\", \"note\": \"\",\n" + walk), "syntax", 3, "\"walk\"",
+     "", "", "a } is missing"},
+    {"UnclosedNodeAboveDeeperLines",
+     "{\n  \"format\": \"kinegraph\",\n  \"schema\": 1,\n  \"nodes\": {\n    \"s\": {\n      \"type\": "
+     "\"Load\"\n  },\n"
+     "  \"ui\": {}\n}\n",
+     "syntax", 7, "}", "", "", "a } is missing"},
+    {"UnclosedList", nodes(R"("a": {"type": "Load", "params": {"range": [1, 2}})"), "syntax", 2, "}}", "", "",
+     "a ] is missing"},
+    {"UnclosedString", nodes(R"("a": {"type": "Load, "params": {}})"), "syntax", 2, "\"Load", "", "",
+     "a \" is missing after"},
+    {"UnopenedString", nodes(R"("a": {type": "Load", "params": {}})"), "syntax", 2, "type", "", "",
+     "a \" is missing before"},
+    {"QuotesInAString", nodes(R"("a": {"note": "say "hello" to"})"), "syntax", 2, "\"say", "", "", "}"},
+    {"NoBracketBefore", nodes(R"("a": {"type": "Load", "params": "fps": 24}})"), "syntax", 2, "\"fps\"", "",
+     "", "a { is missing"},
+    {"OneBracketTooMany", nodes("\"a\": {\"type\": \"Load\"}},\n" + walk), "syntax", 2, "},", "", "",
+     "remove it"},
+    {"BracketOfTheOtherKind", nodes(R"("a": {"type": "Load", "params": {"range": [1, 2}}})"), "syntax", 2,
+     "}}}", "", "", "write ]"},
+    {"CommentThatNeverEnds", nodes("/* the walk\n" + walk), "comment", 2, "/*", "", "", "note"},
+
     // Shape of the file.
     {"NotAGraph", "{\"version\": 1}", "not-a-graph", 1, "{", "", "", ""},
     {"AnotherFormat", "{\"format\": \"gltf\",\n\"schema\": 1}", "not-a-graph", 1, "\"gltf\"", "", "", ""},
@@ -439,15 +461,6 @@ TEST_P(BrokenGraph, IsToldWhatIsWrongAndWhere) {
 INSTANTIATE_TEST_SUITE_P(Table, BrokenGraph, testing::ValuesIn(mistakes),
                          [](const auto& mistake) { return std::string(mistake.param.name); });
 
-// "line:column code" of each.
-std::vector<std::string> in_short(const Diagnostics& problems) {
-  std::vector<std::string> all;
-  for (const Diagnostic& problem : problems)
-    all.push_back(std::to_string(problem.place.line) + ":" + std::to_string(problem.place.column) + " " +
-                  problem.code);
-  return all;
-}
-
 class WholeFile : public BrokenGraph {};
 TEST_F(WholeFile, TellsAllItsProblemsAtOnceInTheirOrder) {
   const ReadResult result = read_and_validate(R"({
@@ -465,7 +478,7 @@ TEST_F(WholeFile, TellsAllItsProblemsAtOnceInTheirOrder) {
   "ui": {"nodes": {"a": {"pos": [1]}}}
 })",
                                               registry_, options_);
-  EXPECT_EQ(in_short(result.problems),
+  EXPECT_EQ(toys::in_short(result.problems),
             (std::vector<std::string>{
                 "4:3 unknown-key", "6:5 no-file", "6:45 out-of-range", "6:49 unknown-param", "6:71 bad-range",
                 "7:5 duplicate-key", "8:57 type-mismatch", "8:69 unknown-port", "8:106 wrong-type",
@@ -495,7 +508,7 @@ TEST_F(WholeFile, ColumnsCountCharacters) {
       read_and_validate(nodes("\"a\": {\"note\": \"éé漢🙂\", \"typo\": 1, \"type\": \"Load\", "
                               "\"params\": {\"file\": \"clips/walk.bvh\"}}"),
                         registry_, options_);
-  EXPECT_EQ(in_short(result.problems), std::vector<std::string>{"2:23 unknown-key"});
+  EXPECT_EQ(toys::in_short(result.problems), std::vector<std::string>{"2:23 unknown-key"});
 }
 
 TEST_F(WholeFile, SixtyFourLevelsAreFine) {
@@ -508,7 +521,7 @@ TEST_F(WholeFile, OfMoreThan64MiBIsRefused) {
   text.insert(text.size() - 2, std::string(largest_json - frame.size(), 'x'));
   EXPECT_TRUE(read_and_validate(text, registry_, options_).problems.empty());
   text += ' ';
-  EXPECT_EQ(in_short(read_and_validate(text, registry_, options_).problems),
+  EXPECT_EQ(toys::in_short(read_and_validate(text, registry_, options_).problems),
             std::vector<std::string>{"1:1 too-large"});
 }
 
@@ -536,9 +549,9 @@ TEST_F(WholeFile, ABatchsOwnVariablesAreFineInAPathThatIsWritten) {
                                 "inputs": {"motion": "walk.motion"}})"),
                         registry_, options_)
           .problems.empty());
-  EXPECT_EQ(in_short(read_and_validate(nodes(R"("a": {"type": "Load", "params": {"file": "${item}"}})"),
-                                       registry_, options_)
-                         .problems),
+  EXPECT_EQ(toys::in_short(read_and_validate(nodes(R"("a": {"type": "Load", "params": {"file": "${item}"}})"),
+                                             registry_, options_)
+                               .problems),
             std::vector<std::string>{"2:42 undefined-variable"});
 }
 
@@ -546,7 +559,7 @@ TEST_F(WholeFile, AnAbsolutePathIsAWarningUnlessItIsGivenFromOutside) {
   const std::string clips = (folder_ / "clips").string();
   const std::string text = nodes(R"("a": {"type": "Load", "params": {"file": "${clips}/walk.bvh"}})",
                                  ", \"variables\": {\"clips\": \"" + clips + "\"}");
-  EXPECT_EQ(in_short(read_and_validate(text, registry_, options_).problems),
+  EXPECT_EQ(toys::in_short(read_and_validate(text, registry_, options_).problems),
             std::vector<std::string>{"2:42 absolute-path"});
   options_.variables = {{"clips", Json(clips)}};
   EXPECT_TRUE(read_and_validate(text, registry_, options_).problems.empty());

@@ -1,6 +1,7 @@
 // Node types without a body, for tests of documents: what is read, checked, edited, written and planned.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "graph/builtin_nodes.h"
 #include "graph/compute.h"
@@ -188,6 +189,14 @@ inline std::string all_text(const Diagnostics& problems) {
   std::string text;
   for (const Diagnostic& problem : problems) text += to_text(problem) + "\n";
   return text;
+}
+
+// "line:column code" of each.
+inline std::vector<std::string> in_short(const Diagnostics& problems) {
+  std::vector<std::string> all;
+  for (const Diagnostic& problem : problems)
+    all.push_back(std::to_string(problem.place.line) + ":" + std::to_string(problem.place.column) + " " + problem.code);
+  return all;
 }
 
 // The document of a text that must be readable without an error.

@@ -99,6 +99,10 @@ const Mistake mistakes[] = {
     {"DuplicateKey", file("\"w\": {\"type\": \"Gait\"}"), 4, "error: duplicate-key: ", "line 3"},
     {"NotANumber", with("Gait", R"("speed": NaN)"), 4, "error: not-finite: ", "default"},
     {"LeadingZero", with("Gait", R"("speed": 01)"), 4, "error: bad-number: ", "write 1"},
+    {"UnclosedNode", file("\"n\": {\"type\": \"Gait\",\n\"o\": {\"type\": \"Gait\"}"), 5,
+     "error: syntax: ", "a } is missing"},
+    {"UnclosedString", with("Gait", R"("gait": "sneak, "seed": 1)"), 4, "error: syntax: ", "a \" is missing"},
+    {"UnclosedList", with("Trim", R"("range": [0, 9)", moved), 4, "error: syntax: ", "a ] is missing"},
     {"BadUtf8", file("\"n\": {\"type\": \"Gait\", \"note\": \"\xff\"}"), 4, "error: bad-utf8: ", "UTF-8"},
     {"ByteOrderMark", "\xEF\xBB\xBF{}", 1, "error: byte-order-mark: ", "UTF-8"},
 
