@@ -1,9 +1,8 @@
-#include "graph/validate.h"
-
 #include <fmt/format.h>
 
 #include <map>
 
+#include "graph/validate_nested.h"
 #include "headless/commands.h"
 #include "headless/exit_code.h"
 
@@ -60,13 +59,14 @@ int validate_command(const Program& program, const ValidateArguments& arguments)
     Opened opened = open_graph(graph, program.registry);
     FileStore files;
     open_graphs_inside(opened, program.registry, variables, {}, files);
-    Diagnostics problems = all_problems(opened, program.registry,
-                                        {.file = graph,
-                                         .folder = opened.folder,
-                                         .check_files = !arguments.no_files,
-                                         .allow_presets = true,
-                                         .variables = variables});
-    for (const auto& problem : problems) tell(problem, graph);
+    const ValidateOptions options{.file = graph,
+                                  .folder = opened.folder,
+                                  .check_files = !arguments.no_files,
+                                  .allow_presets = true,
+                                  .variables = variables};
+    for (const auto& problem : all_problems(opened, program.registry, options)) tell(problem, graph);
+    for (const auto& problem : validate_nested(opened.document, program.registry, options))
+      tell(problem, graph);
     if (has_error(opened.problems)) continue;
     for (auto& problem : unused_variables(opened, variables, {}))
       if (++without[problem.message] == static_cast<int>(arguments.graphs.size()))

@@ -17,6 +17,7 @@ struct Mistake {
   int validate = 3, run = 3;  // exit codes
   const char* when_run =
       "";  // where run tells it in another way: a node that is missing stops only what needs it
+  const char* in = "g.kg.json";  // where validate finds it
 };
 void PrintTo(const Mistake& mistake, std::ostream* out) {
   *out << mistake.name;
@@ -77,6 +78,8 @@ const std::pair<const char*, std::string> libraries[] = {
                       R"(, "publish": {"outputs": {"motion": "f.motion"}})")},
     {"clipless", file(R"("l": {"type": "Load", "params": {"file": "none.bvh"}})",
                       R"(, "publish": {"outputs": {"motion": "l.motion"}})")},
+    {"deeper", file(R"("d": {"type": "Graph", "params": {"file": "clipless.kg.json"}})",
+                    R"(, "publish": {"outputs": {"motion": "d.motion"}})")},
     {"circle", file(R"("g": {"type": "Graph", "params": {"file": "round.kg.json"}})",
                     R"(, "publish": {"outputs": {"motion": "g.motion"}})")},
     {"round", file(R"("g": {"type": "Graph", "params": {"file": "circle.kg.json"}})",
@@ -278,8 +281,12 @@ const Mistake mistakes[] = {
     {"GraphFileNotNeeded", inside("smoth", "", "", ",\n\"publish\": {\"outputs\": {\"o\": \"w.motion\"}}"), 4,
      "error: missing-file: g.file: ", "smooth.kg.json", 3, 0, "warning: missing-file: g.file: "},
     {"GraphsInACircle", inside("circle"), 4, "error: graph-cycle: g.file: ", "inside itself"},
-    {"UnknownTypeInsideAGraph", inside("misspelt"), 4, "", "", 0, 3, "error: missing-node: g/f: "},
-    {"MissingFileInsideAGraph", inside("clipless"), 4, "", "", 0, 1, "error: missing-file: g/l.file: "},
+    {"UnknownTypeInsideAGraph", inside("misspelt"), 4, "warning: unknown-type: g/f: ", "Filter", 0, 3,
+     "error: missing-node: g/f: ", "lib/misspelt.kg.json"},
+    {"MissingFileInsideAGraph", inside("clipless"), 4, "error: missing-file: g/l.file: ", "relative", 3, 1,
+     "error: missing-file: g/l.file: ", "lib/clipless.kg.json"},
+    {"MissingFileTwoGraphsDeep", inside("deeper"), 4, "error: missing-file: g/d/l.file: ", "relative", 3, 1,
+     "error: missing-file: g/d/l.file: ", "lib/clipless.kg.json"},
     {"GraphFileInAnUndefinedPlace",
      file(R"("g": {"type": "Graph", "params": {"file": "${lib}/smooth.kg.json"}})", result), 4,
      "error: undefined-variable: g.file: ", "--var lib="},
@@ -329,7 +336,7 @@ TEST_P(BrokenGraphs, AreToldAndWriteNothing) {
     const std::size_t end = validated.out.find('\n', start);
     const std::string line = validated.out.substr(start, end - start);
     const std::size_t hint = line.find('(');
-    found |= line.starts_with("g.kg.json:" + std::to_string(mistake.line) + ":") &&
+    found |= line.starts_with(std::string(mistake.in) + ":" + std::to_string(mistake.line) + ":") &&
              line.find(mistake.told) != line.npos && hint != line.npos && *mistake.hint != 0 &&
              line.find(mistake.hint, hint) != line.npos;
     start = end + 1;
