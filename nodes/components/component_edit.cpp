@@ -8,6 +8,7 @@
 #include <set>
 
 #include "nodes/components/alignment.h"
+#include "nodes/components/held_frames.h"
 #include "nodes/components/rebuild.h"
 #include "nodes/node_params.h"
 #include "nodes/time/displacement.h"
@@ -15,6 +16,8 @@
 
 namespace kinegraph {
 namespace {
+
+constexpr double longest_hold = 0.25;  // s; a clip that rests for longer isn't held by a warp
 
 // Values of a series at other times, linear.
 double value_at(const std::vector<double>& series, double time) {
@@ -37,6 +40,8 @@ class Editing {
       : now_(components), segment_(segment), params_(params), inputs_(inputs), work_(work) {
     u_ = signals_of(now_, base());
     added_ = base().added;
+    cutoff_ = params_.lowpass *
+              own_share_of_frames(u_, static_cast<std::size_t>(std::ceil(longest_hold * now_.fps)));
   }
 
   void at(std::size_t index) { where_ = fmt::format("edits[{}]", index); }
@@ -127,7 +132,7 @@ class Editing {
     const ComponentSegment& giver = segment_of(now_, edit.from, field("from"));
     const Rows given = signals_of(now_, giver);
     const Correspondence path = aligned_segments(now_, base(), giver, edit.align, field("align"), work_);
-    const ClockMaps maps = clock_maps(path, frames(), giver.frames(), now_.fps, params_.lowpass);
+    const ClockMaps maps = clock_maps(path, frames(), giver.frames(), now_.fps, cutoff_);
     Rows b = given;
     if (edit.keep_timing_of_from)
       change_clock(maps.a_of_b);
@@ -247,7 +252,7 @@ class Editing {
 
   double fade_seconds() const { return params_.lowpass > 0 ? 1 / params_.lowpass : 0; }
   std::vector<double> smoothed(const std::vector<double>& series) const {
-    return params_.lowpass > 0 && series.size() > 1 ? lowpass(series, now_.fps, params_.lowpass) : series;
+    return cutoff_ > 0 && series.size() > 1 ? lowpass(series, now_.fps, cutoff_) : series;
   }
   Rows smoothed(Rows rows) const {
     for (std::size_t i = 0; i < rows.rows; ++i) {
@@ -309,6 +314,7 @@ class Editing {
   Work& work_;
   std::string where_;
   Rows u_, added_;
+  double cutoff_ = 0;  // Hz on the segment's clock: `lowpass` in the time of the frames that are its own
 };
 
 // The segment that is edited: `segment`, else the one that the transfers give to, else the first.

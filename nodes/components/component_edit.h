@@ -64,8 +64,9 @@ using ComponentEditStep = std::variant<edits::Scale, edits::Merge, edits::Transl
 struct ComponentEditParams {
   std::vector<ComponentEditStep> edits;
   std::optional<std::int64_t> segment;  // open: a transfer's `to`, else 0
-  double lowpass =
-      6;  // Hz, of what is warped in time or replaced; also fades `frames` over its inverse; 0 = off
+  // Hz, of what is warped in time or replaced; also fades `frames` over its inverse; 0 = off. A base that
+  // holds frames of its own (held_frames.h) is smoothed by its own time.
+  double lowpass = 6;
   bool residual = false;  // adds what the components leave out of the base
 };
 struct ComponentEditInputs {
