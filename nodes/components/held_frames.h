@@ -7,8 +7,8 @@
 
 namespace kinegraph {
 
-// Rows of `signals` (components by frames) that repeat the one before, within 1e-9 of unit variance, are held.
-// Out: frames that are shown by frames there are, in (0, 1]. Where a clip stands still for longer than
+// Rows of `signals` (components by frames) that repeat the one before, within 1e-9 of unit variance, are
+// held. Out: frames that are shown by frames there are, in (0, 1]. Where a clip stands still for longer than
 // `longest` frames it holds nothing: those frames don't count.
 double own_share_of_frames(const Rows& signals, std::size_t longest);
 

@@ -8,8 +8,8 @@ namespace kinegraph {
 
 // Fills the frames that aren't known: least Σ ‖second difference‖² + (2 / blend)⁴ ‖change‖² (per second), so
 // that the change leaves the known frames with their value and speed and dies away within about `blend`
-// seconds. A single known frame has no speed, and speed that would carry the change further than its own size or
-// `carried`, whichever is larger, is cut down to that. No frame known: zero.
+// seconds. A single known frame has no speed, and speed that would carry the change further than its own size
+// or `carried`, whichever is larger, is cut down to that. No frame known: zero.
 void fill_smoothly(std::vector<Vec3>& change, const std::vector<bool>& known, double fps, double blend,
                    double carried);
 

@@ -9,7 +9,7 @@
 namespace kinegraph {
 namespace {
 
-constexpr double most_toe_turn = pi / 4;
+constexpr double most_toe_turn = pi / 4, most_foot_turn = pi / 6;
 
 std::vector<double> plant_heights(const Contacts& contacts, std::string_view part) {
   std::vector<double> heights;
@@ -19,13 +19,78 @@ std::vector<double> plant_heights(const Contacts& contacts, std::string_view par
   return heights;
 }
 
+// By how much a foot may pass below the lowest place where it stands.
+std::vector<double> room_below(const FootTrack& foot, double fps) {
+  constexpr double rolling = 0.022, swinging = 0.005;    // m
+  constexpr double rolls_for = 0.03, swings_from = 0.1;  // s from a plant
+  std::vector<bool> free(foot.frames());
+  for (std::size_t t = 0; t < free.size(); ++t)
+    free[t] = !foot.heel.planted_at(t) && !foot.ball.planted_at(t);
+  std::vector<double> room(foot.frames(), rolling);
+  for (const Run& swing : runs_of(free)) {
+    if (swing.start == 0 || swing.end == free.size()) continue;
+    for (std::size_t t = swing.start; t < swing.end; ++t) {
+      const double away = static_cast<double>(std::min(t + 1 - swing.start, swing.end - t)) / fps;
+      const double u = std::clamp((away - rolls_for) / (swings_from - rolls_for), 0.0, 1.0);
+      room[t] = rolling + (swinging - rolling) * u * u * (3 - 2 * u);
+    }
+  }
+  return room;
+}
+
+std::vector<double> above_plants(const FootTrack::Part& part, double contacts_floor,
+                                 std::optional<double> floor, const std::vector<double>& below,
+                                 double least) {
+  std::vector<double> limits(below.size(), least);
+  if (part.heights.empty()) return limits;
+  std::vector<double> heights = part.heights;
+  std::sort(heights.begin(), heights.end());
+  const double stands = floor ? *floor + heights[heights.size() / 2] - contacts_floor : heights.front();
+  for (std::size_t t = 0; t < limits.size(); ++t) limits[t] = std::max(least, stands - below[t]);
+  return limits;
+}
+
 bool any(const std::vector<double>& need) {
   return std::any_of(need.begin(), need.end(), [](double depth) { return depth > 0; });
 }
 
+// Turns that bring the far end of something rigid above a height.
+class Raising {
+ public:
+  Raising(std::size_t frames, double most) : most_(most), need_(frames, 0.0), axis_(frames) {}
+
+  // In this frame it stands at `at` and reaches from there `along`.
+  void ask(std::size_t t, Vec3 at, Vec3 along, double height) {
+    const double length = norm(along);
+    const Vec3 side{along.z, 0, -along.x};
+    if (length <= 0 || norm(side) <= 1e-6 * length) return;
+    // About this axis a positive turn takes the end down.
+    axis_[t] = normalized(side);
+    const double wanted = (height - at.y) / length;
+    if (along.y >= wanted * length) return;
+    need_[t] = std::min(elevation(wanted) - elevation(along.y / length), most_);
+  }
+  // World turns, none in `fixed` frames; empty where nothing was asked.
+  std::vector<Quat> turns(const std::vector<bool>& fixed, double fps, double blend) const {
+    if (!any(need_)) return {};
+    const std::vector<double> rise = rise_smoothly(need_, fixed, fps, blend);
+    std::vector<Quat> turns(need_.size());
+    for (std::size_t t = 0; t < turns.size(); ++t)
+      if (norm(axis_[t]) > 0) turns[t] = axis_angle(axis_[t], -rise[t]);
+    return turns;
+  }
+
+ private:
+  static double elevation(double sine) { return pi / 2 - arc_cosine(std::clamp(sine, -1.0, 1.0)); }
+
+  double most_;
+  std::vector<double> need_;
+  std::vector<Vec3> axis_;
+};
+
 }  // namespace
 
-FloorLimits floor_limits(const Contacts& contacts, std::optional<double> floor) {
+FloorLimits floor_limits(const Contacts& contacts, const FootTrack& foot, std::optional<double> floor) {
   double ground = contacts.floor, heel = 0;
   for (const char* part : {"heel", "ball"}) {
     const std::vector<double> heights = plant_heights(contacts, part);
@@ -35,7 +100,12 @@ FloorLimits floor_limits(const Contacts& contacts, std::optional<double> floor) 
     if (std::string_view(part) == "heel") heel = std::max(0.0, usual - contacts.floor);
   }
   if (floor) ground = *floor;
-  return {ground + heel / 2, ground, ground};
+  const std::vector<double> below = room_below(foot, contacts.fps);
+  FloorLimits limits;
+  limits.heel = above_plants(foot.heel, contacts.floor, floor, below, ground + heel / 2);
+  limits.ball = above_plants(foot.ball, contacts.floor, floor, below, ground);
+  limits.tip = ground;
+  return limits;
 }
 
 void lift_off_floor(const FootTrack& foot, const FloorLimits& limits, double fps, double blend,
@@ -47,38 +117,35 @@ void lift_off_floor(const FootTrack& foot, const FloorLimits& limits, double fps
       if (from_ankle.empty()) return 0.0;
       return limit - (foot.ankle[t] + targets.move[t] + rotate(targets.turn[t], from_ankle[t])).y;
     };
-    need[t] = std::max({0.0, depth(foot.heel.from_ankle, limits.heel),
-                        depth(foot.ball.from_ankle, limits.ball), depth(foot.tip_from_ankle, limits.tip)});
+    need[t] = std::max({0.0, depth(foot.heel.from_ankle, limits.heel[t]),
+                        depth(foot.ball.from_ankle, limits.ball[t]), depth(foot.tip_from_ankle, limits.tip)});
   }
   if (!any(need)) return;
   const std::vector<double> lift = rise_smoothly(need, targets.held, fps, blend);
   for (std::size_t t = 0; t < foot.frames(); ++t) targets.move[t].y += lift[t];
 }
 
+void raise_balls(const FootTrack& foot, const FloorLimits& limits, double fps, double blend,
+                 const std::vector<double>& weights, AnkleTargets& targets) {
+  if (foot.ball.from_ankle.empty()) return;
+  Raising raising(foot.frames(), most_foot_turn);
+  for (std::size_t t = 0; t < foot.frames(); ++t)
+    if (!targets.held[t])
+      raising.ask(t, foot.ankle[t] + targets.move[t], rotate(targets.turn[t], foot.ball.from_ankle[t]),
+                  limits.ball[t]);
+  const std::vector<Quat> turns = raising.turns(targets.held, fps, blend);
+  for (std::size_t t = 0; t < turns.size(); ++t)
+    targets.turn[t] = slerp(weights[t], Quat{}, turns[t]) * targets.turn[t];
+}
+
 std::vector<Quat> toe_turns(const FootTrack& foot, const FloorLimits& limits, double fps, double blend,
                             const AnkleTargets& targets) {
   if (foot.tip_from_ankle.empty() || foot.toe_from_ankle.empty()) return {};
-  std::vector<double> need(foot.frames(), 0.0);
-  std::vector<Vec3> axis(foot.frames());
-  for (std::size_t t = 0; t < foot.frames(); ++t) {
-    const Vec3 toe = foot.ankle[t] + targets.move[t] + rotate(targets.turn[t], foot.toe_from_ankle[t]);
-    const Vec3 along = rotate(targets.turn[t], foot.tip_from_ankle[t] - foot.toe_from_ankle[t]);
-    const double length = norm(along);
-    const Vec3 side{along.z, 0, -along.x};
-    if (length <= 0 || norm(side) <= 1e-6 * length) continue;
-    // About this axis a positive turn takes the tip down.
-    axis[t] = normalized(side);
-    const double wanted = (limits.tip - toe.y) / length;
-    if (along.y >= wanted * length) continue;
-    const auto elevation = [](double sine) { return pi / 2 - arc_cosine(std::clamp(sine, -1.0, 1.0)); };
-    need[t] = std::min(elevation(wanted) - elevation(along.y / length), most_toe_turn);
-  }
-  if (!any(need)) return {};
-  const std::vector<double> rise = rise_smoothly(need, std::vector<bool>(foot.frames(), false), fps, blend);
-  std::vector<Quat> turns(foot.frames());
+  Raising raising(foot.frames(), most_toe_turn);
   for (std::size_t t = 0; t < foot.frames(); ++t)
-    if (norm(axis[t]) > 0) turns[t] = axis_angle(axis[t], -rise[t]);
-  return turns;
+    raising.ask(t, foot.ankle[t] + targets.move[t] + rotate(targets.turn[t], foot.toe_from_ankle[t]),
+                rotate(targets.turn[t], foot.tip_from_ankle[t] - foot.toe_from_ankle[t]), limits.tip);
+  return raising.turns(std::vector<bool>(foot.frames(), false), fps, blend);
 }
 
 }  // namespace kinegraph

@@ -11,20 +11,28 @@
 
 namespace kinegraph {
 
-// World heights, m, that the points of feet stay above.
+// World heights, m, that the points of one foot stay above, frame by frame.
 struct FloorLimits {
-  double heel, ball, tip;
+  std::vector<double> heel, ball;
+  double tip = 0;
 };
-// Balls and toes' tips: the contacts' floor, or the ground of their lowest plant where that is lower. Heels
-// are ankle joints, with the sole far below: half-way between there and their usual height in plants. (A heel
-// that strikes or a toe that pushes off comes by up to 4 cm under the height it has in stance, in captured
-// walks.) `floor`: instead of the contacts' own.
-FloorLimits floor_limits(const Contacts& contacts, std::optional<double> floor);
+// Toes' tips: the contacts' floor, or the ground of their lowest plant where that is lower. Heels are ankle
+// joints, with the sole far below, and balls have some of it below them: a swinging foot passes above the
+// lowest place where that part of it stands, less 5 mm. Beside the foot's plants, and before the first and
+// after the last, less 22 mm, by which heels that strike and toes that push off go deeper in captured walks
+// and runs. Never lower than the tips' limit, for heels half-way from there to their usual height. `floor`:
+// instead of the contacts' own.
+FloorLimits floor_limits(const Contacts& contacts, const FootTrack& foot, std::optional<double> floor);
 
 // Adds the least smooth lift to `move` in frames that aren't held. Within about 0.02 s of a plant, where a
 // lift can't be smooth and large, some of the depth is left.
 void lift_off_floor(const FootTrack& foot, const FloorLimits& limits, double fps, double blend,
                     AnkleTargets& targets);
+
+// Where legs don't bend as far as a lift asks, the foot turns up instead, by up to 30°, in frames that aren't
+// held: balls of `foot` above their limit. `move` is where the leg brings the ankle.
+void raise_balls(const FootTrack& foot, const FloorLimits& limits, double fps, double blend,
+                 const std::vector<double>& weights, AnkleTargets& targets);
 
 // World turns of the toe joint, on top of the ankle's, that bring the tip above its limit, by up to 45°;
 // empty where none is needed.

@@ -7,18 +7,17 @@
 
 #include "graph/diagnostic.h"
 #include "nodes/feet/ankle_targets.h"
-#include "nodes/feet/blending.h"
 #include "nodes/feet/floor_clearance.h"
 #include "nodes/feet/foot_track.h"
-#include "nodes/feet/leg_solver.h"
+#include "nodes/feet/ground_level.h"
 #include "nodes/feet/plant_positions.h"
 #include "nodes/feet/root_adjustment.h"
+#include "nodes/feet/solved_leg.h"
 #include "nodes/motion/elementary.h"
 
 namespace kinegraph {
 namespace {
 
-constexpr double largest_carried_stretch = 0.1;  // of the leg's length
 constexpr double stretch_blend = 0.06;  // s; longer ones would carry a stretch that grows at a plant's end on
 
 // World orientation of what stands above a joint.
@@ -33,6 +32,13 @@ void move_root(const Skeleton& skeleton, const std::vector<Vec3>& moves, Motion&
     root.set(t, root[t] + rotate(inverse(skeleton.above), moves[t]) / skeleton.above_scale);
 }
 
+double largest_move(const Motion& before, const Motion& after) {
+  double largest = 0;
+  for (std::size_t t = 0; t < before.frames(); ++t)
+    largest = std::max(largest, norm(after.local_offset(0, t) - before.local_offset(0, t)));
+  return largest * before.skeleton().above_scale;
+}
+
 // Joints from below `top` down to `bottom`.
 std::vector<int> links(const Skeleton& skeleton, int top, int bottom) {
   std::vector<int> chain;
@@ -41,29 +47,49 @@ std::vector<int> links(const Skeleton& skeleton, int top, int bottom) {
   return chain;
 }
 
+std::vector<PlantPositions> places_of(const std::vector<FootTrack>& feet, const Contacts& contacts,
+                                      const FootskateParams& params) {
+  std::vector<PlantPositions> places;
+  for (const FootTrack& foot : feet)
+    places.push_back(plant_positions(foot, contacts.fps, params.floor, contacts.floor));
+  return places;
+}
+
+// The motion as a whole at the height of its plants' ground.
+Motion on_ground(const Motion& motion, const Contacts& contacts, const FootskateParams& params,
+                 const std::vector<double>& weights, Work& work) {
+  const WorldMotion world = world_motion(motion, work);
+  const std::vector<FootTrack> feet = foot_tracks(motion.skeleton(), world, contacts);
+  const std::vector<double> rise = rise_to_ground(feet, places_of(feet, contacts, params), motion.fps());
+  if (rise.empty()) return motion;
+  Motion out = motion.translates(0) ? motion : motion.with_translation(0);
+  std::vector<Vec3> moves(motion.frames());
+  for (std::size_t t = 0; t < moves.size(); ++t) moves[t] = {0, weights[t] * rise[t], 0};
+  move_root(motion.skeleton(), moves, out);
+  return out;
+}
+
 }  // namespace
 
-FootskateResult clean_footskate(const Motion& motion, const Contacts& contacts, const FootskateParams& params,
+FootskateResult clean_footskate(const Motion& input, const Contacts& contacts, const FootskateParams& params,
                                 const std::vector<double>& weights, Work& work) {
+  const Motion motion = on_ground(input, contacts, params, weights, work);
   const Skeleton& skeleton = motion.skeleton();
   const WorldMotion world = world_motion(motion, work);
   const std::vector<FootTrack> feet = foot_tracks(skeleton, world, contacts);
-  const FloorLimits floor = floor_limits(contacts, params.floor);
+  std::vector<FloorLimits> floors;
   std::vector<AnkleTargets> targets;
-  std::vector<std::vector<Quat>> toes;
   for (const FootTrack& foot : feet) {
     work.check();
     const PlantPositions places = plant_positions(foot, motion.fps(), params.floor, contacts.floor);
     AnkleTargets target = ankle_targets(foot, places, motion.fps(), params.blend);
-    lift_off_floor(foot, floor, motion.fps(), params.blend, target);
-    std::vector<Quat> toe = toe_turns(foot, floor, motion.fps(), params.blend, target);
+    floors.push_back(floor_limits(contacts, foot, params.floor));
+    lift_off_floor(foot, floors.back(), motion.fps(), params.blend, target);
     for (std::size_t t = 0; t < motion.frames(); ++t) {
       target.move[t] *= weights[t];
-      if (!toe.empty() && weights[t] != 1) toe[t] = slerp(weights[t], Quat{}, toe[t]);
       if (weights[t] != 1) target.turn[t] = slerp(weights[t], Quat{}, target.turn[t]);
     }
     targets.push_back(std::move(target));
-    toes.push_back(std::move(toe));
   }
   work.progress(0.3);
   const double damping = params.knee_damping / degrees_per_radian;
@@ -72,24 +98,23 @@ FootskateResult clean_footskate(const Motion& motion, const Contacts& contacts, 
   work.progress(0.6);
 
   FootskateResult result;
-  for (const Vec3& move : root) result.largest_root_move = std::max(result.largest_root_move, norm(move));
-  // First all rotations, with each leg's stretch kept aside: most motions need no more tracks than they have.
   result.motion = motion.translates(0) ? motion : motion.with_translation(0);
   move_root(skeleton, root, result.motion);
-  std::vector<std::vector<Vec3>> stretches(feet.size(), std::vector<Vec3>(motion.frames()));
+  result.largest_root_move = largest_move(input, result.motion);
+  // First all rotations: most motions need no more tracks than they have.
+  std::vector<SolvedLeg> legs;
   for (std::size_t f = 0; f < feet.size(); ++f) {
+    AnkleTargets& target = targets[f];
     const Leg& leg = feet[f].leg;
+    legs.push_back(solved_leg(world, feet[f], target, root, {params.stretch, damping}, motion.fps(),
+                              std::min(params.blend, stretch_blend), work));
+    target.move = legs[f].ankle_move;
+    raise_balls(feet[f], floors[f], motion.fps(), params.blend, weights, target);
+    const std::vector<Quat> toes = toe_turns(feet[f], floors[f], motion.fps(), params.blend, target);
     for (std::size_t t = 0; t < motion.frames(); ++t) {
       if (t % 256 == 0) work.check();
-      const Vec3 hip = world.position(leg.hip)[t], knee = world.position(leg.knee)[t],
-                 ankle = feet[f].ankle[t];
-      const LegChange change =
-          solve_leg(hip, knee, ankle, hip + root[t], ankle + targets[f].move[t], damping);
-      const double most = params.stretch;
-      stretches[f][t] = {std::clamp(change.stretch, 1 - most, 1 + most) - 1, 0, 0};
-      const double wanted = norm(ankle + targets[f].move[t] - hip - root[t]);
-      const double residual = std::abs(1 - (1 + stretches[f][t].x) / change.stretch) * wanted;
-      if (targets[f].held[t] && weights[t] == 1 && residual > result.largest_residual) {
+      const double residual = legs[f].residual[t];
+      if (target.held[t] && weights[t] == 1 && residual > result.largest_residual) {
         result.largest_residual = residual;
         result.residual_frame = t;
         result.residual_joint = leg.ankle;
@@ -100,25 +125,24 @@ FootskateResult clean_footskate(const Motion& motion, const Contacts& contacts, 
             inverse(of_above * above(skeleton, world, joint, t)) * of_joint * world.orientation(joint)[t];
         result.motion.rotation(joint).set(t, normalized(nearer(local, motion.rotation(joint)[t])));
       };
-      set(leg.hip, Quat{}, change.thigh);
-      set(leg.knee, change.thigh, change.shank);
-      set(leg.ankle, change.shank, targets[f].turn[t]);
-      if (!toes[f].empty()) set(leg.toe, targets[f].turn[t], toes[f][t] * targets[f].turn[t]);
+      const Quat thigh = legs[f].thigh[t], shank = legs[f].shank[t];
+      set(leg.hip, Quat{}, thigh);
+      set(leg.knee, thigh, shank);
+      set(leg.ankle, shank, target.turn[t]);
+      if (!toes.empty()) set(leg.toe, target.turn[t], slerp(weights[t], Quat{}, toes[t]) * target.turn[t]);
     }
   }
   work.progress(0.9);
   for (std::size_t f = 0; f < feet.size(); ++f) {
-    // A swinging foot has no place to meet: its leg goes back to its length.
-    fill_smoothly(stretches[f], targets[f].held, motion.fps(), std::min(params.blend, stretch_blend),
-                  largest_carried_stretch);
+    const std::vector<Vec3>& stretch = legs[f].stretch;
     double largest = 0;
-    for (const Vec3& stretch : stretches[f]) largest = std::max(largest, std::abs(stretch.x));
+    for (const Vec3& part : stretch) largest = std::max(largest, std::abs(part.x));
     if (largest == 0) continue;
     result.largest_stretch = std::max(result.largest_stretch, largest);
     for (int joint : links(skeleton, feet[f].leg.hip, feet[f].leg.ankle)) {
       if (!result.motion.translates(joint)) result.motion = result.motion.with_translation(joint);
       const Vec3Track track = result.motion.translation(joint);
-      for (std::size_t t = 0; t < motion.frames(); ++t) track.set(t, (1 + stretches[f][t].x) * track[t]);
+      for (std::size_t t = 0; t < motion.frames(); ++t) track.set(t, (1 + stretch[t].x) * track[t]);
     }
   }
   if (result.largest_residual > 0.001) {

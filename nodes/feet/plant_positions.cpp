@@ -1,6 +1,7 @@
 #include "nodes/feet/plant_positions.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kinegraph {
 namespace {
@@ -24,6 +25,16 @@ Vec3 path(const FootTrack& foot, const FootTrack::Part& part, std::size_t t) {
   return foot.ankle[t] + part.from_ankle[t];
 }
 
+// A foot along `direction`, of a length, which stands as flat as the contacts know of the two plants' ground:
+// a restyled one may point its toes down into the floor.
+Vec3 levelled(Vec3 direction, double length, const Plant& a, const Plant& b) {
+  if (!a.height || !b.height) return length * direction;
+  const double rise = *b.height - *a.height, level = std::hypot(direction.x, direction.z);
+  if (std::fabs(rise) >= length || level <= 0) return length * direction;
+  const double along = std::sqrt(length * length - rise * rise) / level;
+  return {along * direction.x, rise, along * direction.z};
+}
+
 // From the place of plant `a` to that of `b` as the foot itself spans it: over the frames they share, or at
 // the seam.
 Vec3 span(const Plant& a, const Plant& b) {
@@ -40,7 +51,7 @@ Vec3 span(const Plant& a, const Plant& b) {
     sum += across;
     length += norm(across);
   }
-  return (length / static_cast<double>(end - start)) * normalized(sum);
+  return levelled(normalized(sum), length / static_cast<double>(end - start), a, b);
 }
 
 // How far a part stands above the floor: the median over its plants, or its planted frames here where the
@@ -80,6 +91,7 @@ PlantPositions plant_positions(const FootTrack& foot, double fps, std::optional<
   PlantPositions places;
   places.heel.resize(foot.frames());
   places.ball.resize(foot.frames());
+  places.lift.resize(foot.frames(), 0.0);
   places.steady.resize(foot.frames(), false);
   std::vector<Plant> plants;
   for (const FootTrack::Part* part : {&foot.heel, &foot.ball})
@@ -118,9 +130,11 @@ PlantPositions plant_positions(const FootTrack& foot, double fps, std::optional<
       Vec3 place = sum / count + plants[i].from_first;
       place.y += lift;
       if (floor) place.y = *floor + (plants[i].part == &foot.heel ? heel_height : ball_height);
+      const double lifted = place.y - (sum.y / count + plants[i].from_first.y);
       auto& own = plants[i].part == &foot.heel ? places.heel : places.ball;
       for (std::size_t t = plants[i].run.start; t < plants[i].run.end; ++t) {
         own[t] = place;
+        places.lift[t] = lifted;
         furthest = std::max(furthest, norm(path(foot, *plants[i].part, t) - place));
       }
     }

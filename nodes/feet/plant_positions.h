@@ -10,6 +10,7 @@ namespace kinegraph {
 // Where heel and ball of one foot have to be, frame by frame; meaningful only in their planted frames.
 struct PlantPositions {
   std::vector<Vec3> heel, ball;  // world, m
+  std::vector<double> lift;      // m, from the middle of where the stand was up to its place
   std::vector<bool> steady;      // the foot stands well enough here: it is left as it is
 };
 
