@@ -109,7 +109,7 @@ FloorLimits floor_limits(const Contacts& contacts, const FootTrack& foot, std::o
 }
 
 void lift_off_floor(const FootTrack& foot, const FloorLimits& limits, double fps, double blend,
-                    AnkleTargets& targets) {
+                    const std::vector<double>& weights, AnkleTargets& targets) {
   std::vector<double> need(foot.frames(), 0.0);
   for (std::size_t t = 0; t < foot.frames(); ++t) {
     if (targets.held[t]) continue;
@@ -122,7 +122,7 @@ void lift_off_floor(const FootTrack& foot, const FloorLimits& limits, double fps
   }
   if (!any(need)) return;
   const std::vector<double> lift = rise_smoothly(need, targets.held, fps, blend);
-  for (std::size_t t = 0; t < foot.frames(); ++t) targets.move[t].y += lift[t];
+  for (std::size_t t = 0; t < foot.frames(); ++t) targets.move[t].y += weights[t] * lift[t];
 }
 
 void raise_balls(const FootTrack& foot, const FloorLimits& limits, double fps, double blend,

@@ -25,9 +25,10 @@ struct FloorLimits {
 FloorLimits floor_limits(const Contacts& contacts, const FootTrack& foot, std::optional<double> floor);
 
 // Adds the least smooth lift to `move` in frames that aren't held. Within about 0.02 s of a plant, where a
-// lift can't be smooth and large, some of the depth is left.
+// lift can't be smooth and large, some of the depth is left. `weights`: the part of the change made at each
+// frame, 0 to 1.
 void lift_off_floor(const FootTrack& foot, const FloorLimits& limits, double fps, double blend,
-                    AnkleTargets& targets);
+                    const std::vector<double>& weights, AnkleTargets& targets);
 
 // Where legs don't bend as far as a lift asks, the foot turns up instead, by up to 30°, in frames that aren't
 // held: balls of `foot` above their limit. `move` is where the leg brings the ankle.
