@@ -9,7 +9,7 @@ namespace kinegraph {
 constexpr double largest_carried_turn = 0.1;  // rad, half
 constexpr double largest_carried_move = 0.1;  // m
 
-AnkleTargets ankle_targets(const FootTrack& foot, const PlantPositions& places, double fps, double blend) {
+AnkleTargets ankle_turns(const FootTrack& foot, const PlantPositions& places, double fps, double blend) {
   const std::size_t frames = foot.frames();
   std::vector<Vec3> half_turn(frames);  // logs of the turns
   std::vector<bool> aimed(frames, false);
@@ -23,17 +23,21 @@ AnkleTargets ankle_targets(const FootTrack& foot, const PlantPositions& places, 
   fill_smoothly(half_turn, aimed, fps, blend, largest_carried_turn);
 
   AnkleTargets targets;
-  targets.move.resize(frames);
   targets.turn.resize(frames);
   targets.held.resize(frames);
   for (std::size_t t = 0; t < frames; ++t) {
-    targets.turn[t] = exp(half_turn[t]);
+    targets.turn[t] = places.steady[t] ? Quat{} : exp(half_turn[t]);
+    targets.held[t] = foot.heel.planted_at(t) || foot.ball.planted_at(t);
+  }
+  return targets;
+}
+
+void move_ankles(const FootTrack& foot, const PlantPositions& places, double fps, double blend,
+                 AnkleTargets& targets) {
+  targets.move.assign(foot.frames(), {});
+  for (std::size_t t = 0; t < foot.frames(); ++t) {
     const bool heel = foot.heel.planted_at(t), ball = foot.ball.planted_at(t);
-    targets.held[t] = heel || ball;
-    if (places.steady[t]) {
-      targets.turn[t] = {};
-      continue;
-    }
+    if (places.steady[t]) continue;
     const auto needed = [&](const FootTrack::Part& part, Vec3 place) {
       return place - (foot.ankle[t] + rotate(targets.turn[t], part.from_ankle[t]));
     };
@@ -46,7 +50,6 @@ AnkleTargets ankle_targets(const FootTrack& foot, const PlantPositions& places, 
     }
   }
   fill_smoothly(targets.move, targets.held, fps, blend, largest_carried_move);
-  return targets;
 }
 
 }  // namespace kinegraph

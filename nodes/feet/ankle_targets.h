@@ -15,9 +15,13 @@ struct AnkleTargets {
   std::vector<bool> held;  // heel or ball is planted: `move` is what the plant needs
 };
 
-// Heel and ball planted: the foot turns so that both points aim along their places. One planted: the turn is
-// blended from the nearest such frames, and the ankle moves so that the one point is met. Else both are
-// blended over `blend` seconds.
-AnkleTargets ankle_targets(const FootTrack& foot, const PlantPositions& places, double fps, double blend);
+// `turn` and `held`. Heel and ball planted: the foot turns so that both points aim along their places; else
+// the turn is blended from such frames over `blend` seconds.
+AnkleTargets ankle_turns(const FootTrack& foot, const PlantPositions& places, double fps, double blend);
+
+// `move`: the ankle of a foot that is turned so moves until the planted points are met; else blended
+// likewise.
+void move_ankles(const FootTrack& foot, const PlantPositions& places, double fps, double blend,
+                 AnkleTargets& targets);
 
 }  // namespace kinegraph

@@ -59,14 +59,18 @@ class Raising {
  public:
   Raising(std::size_t frames, double most) : most_(most), need_(frames, 0.0), axis_(frames) {}
 
-  // In this frame it stands at `at` and reaches from there `along`.
-  void ask(std::size_t t, Vec3 at, Vec3 along, double height) {
-    const double length = norm(along);
+  // In this frame it reaches `along` from where it turns. False: no turn could raise it.
+  bool reaches(std::size_t t, Vec3 along) {
     const Vec3 side{along.z, 0, -along.x};
-    if (length <= 0 || norm(side) <= 1e-6 * length) return;
+    if (norm(side) <= 1e-6 * norm(along)) return false;
     // About this axis a positive turn takes the end down.
     axis_[t] = normalized(side);
-    const double wanted = (height - at.y) / length;
+    return true;
+  }
+  // The same, and from `at` it is to come above a height.
+  void ask(std::size_t t, Vec3 at, Vec3 along, double height) {
+    if (!reaches(t, along)) return;
+    const double length = norm(along), wanted = (height - at.y) / length;
     if (along.y >= wanted * length) return;
     need_[t] = std::min(elevation(wanted) - elevation(along.y / length), most_);
   }
@@ -123,6 +127,24 @@ void lift_off_floor(const FootTrack& foot, const FloorLimits& limits, double fps
   if (!any(need)) return;
   const std::vector<double> lift = rise_smoothly(need, targets.held, fps, blend);
   for (std::size_t t = 0; t < foot.frames(); ++t) targets.move[t].y += weights[t] * lift[t];
+}
+
+void raise_heels(const FootTrack& foot, const PlantPositions& places, const FloorLimits& limits, double fps,
+                 double blend, AnkleTargets& targets) {
+  if (foot.ball.from_ankle.empty()) return;
+  Raising raising(foot.frames(), most_foot_turn);
+  std::vector<bool> stands(foot.frames());
+  for (std::size_t t = 0; t < foot.frames(); ++t) {
+    stands[t] = foot.heel.planted_at(t) || places.steady[t];
+    const Vec3 heel = foot.heel.from_ankle.empty() ? Vec3{} : foot.heel.from_ankle[t];
+    const Vec3 along = rotate(targets.turn[t], heel - foot.ball.from_ankle[t]);
+    if (foot.ball.planted_at(t) && !stands[t])
+      raising.ask(t, places.ball[t], along, limits.heel[t]);
+    else
+      raising.reaches(t, along);
+  }
+  const std::vector<Quat> turns = raising.turns(stands, fps, blend);
+  for (std::size_t t = 0; t < turns.size(); ++t) targets.turn[t] = turns[t] * targets.turn[t];
 }
 
 void raise_balls(const FootTrack& foot, const FloorLimits& limits, double fps, double blend,

@@ -7,6 +7,7 @@
 
 #include "nodes/feet/ankle_targets.h"
 #include "nodes/feet/foot_track.h"
+#include "nodes/feet/plant_positions.h"
 #include "nodes/motion/contacts.h"
 
 namespace kinegraph {
@@ -23,6 +24,11 @@ struct FloorLimits {
 // and runs. Never lower than the tips' limit, for heels half-way from there to their usual height. `floor`:
 // instead of the contacts' own.
 FloorLimits floor_limits(const Contacts& contacts, const FootTrack& foot, std::optional<double> floor);
+
+// A foot that only its ball holds turns about it, by up to 30°, where its heel
+// would pass through the floor.
+void raise_heels(const FootTrack& foot, const PlantPositions& places, const FloorLimits& limits, double fps,
+                 double blend, AnkleTargets& targets);
 
 // Adds the least smooth lift to `move` in frames that aren't held. Within about 0.02 s of a plant, where a
 // lift can't be smooth and large, some of the depth is left. `weights`: the part of the change made at each

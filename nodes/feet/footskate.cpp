@@ -77,11 +77,15 @@ FootskateResult clean_footskate(const Motion& input, const Contacts& contacts, c
   const Skeleton& skeleton = motion.skeleton();
   const WorldMotion world = world_motion(motion, work);
   const std::vector<FootTrack> feet = foot_tracks(skeleton, world, contacts);
+  std::vector<FloorLimits> floors;
   std::vector<AnkleTargets> targets;
   for (const FootTrack& foot : feet) {
     work.check();
     const PlantPositions places = plant_positions(foot, motion.fps(), params.floor, contacts.floor);
-    AnkleTargets target = ankle_targets(foot, places, motion.fps(), params.blend);
+    floors.push_back(floor_limits(contacts, foot, params.floor));
+    AnkleTargets target = ankle_turns(foot, places, motion.fps(), params.blend);
+    raise_heels(foot, places, floors.back(), motion.fps(), params.blend, target);
+    move_ankles(foot, places, motion.fps(), params.blend, target);
     for (std::size_t t = 0; t < motion.frames(); ++t) {
       target.move[t] *= weights[t];
       if (weights[t] != 1) target.turn[t] = slerp(weights[t], Quat{}, target.turn[t]);
@@ -102,15 +106,14 @@ FootskateResult clean_footskate(const Motion& input, const Contacts& contacts, c
   std::vector<SolvedLeg> legs;
   for (std::size_t f = 0; f < feet.size(); ++f) {
     AnkleTargets& target = targets[f];
-    const FloorLimits floor = floor_limits(contacts, feet[f], params.floor);
     // Only now: a body that swings its feet too low isn't lifted for it.
-    lift_off_floor(feet[f], floor, motion.fps(), params.blend, weights, target);
+    lift_off_floor(feet[f], floors[f], motion.fps(), params.blend, weights, target);
     const Leg& leg = feet[f].leg;
     legs.push_back(solved_leg(world, feet[f], target, root, {params.stretch, damping}, motion.fps(),
                               std::min(params.blend, stretch_blend), work));
     target.move = legs[f].ankle_move;
-    raise_balls(feet[f], floor, motion.fps(), params.blend, weights, target);
-    const std::vector<Quat> toes = toe_turns(feet[f], floor, motion.fps(), params.blend, target);
+    raise_balls(feet[f], floors[f], motion.fps(), params.blend, weights, target);
+    const std::vector<Quat> toes = toe_turns(feet[f], floors[f], motion.fps(), params.blend, target);
     for (std::size_t t = 0; t < motion.frames(); ++t) {
       if (t % 256 == 0) work.check();
       const double residual = legs[f].residual[t];

@@ -106,6 +106,28 @@ TEST_F(RestyledFeet, SwingAboveTheirPlants) {
   EXPECT_GT(lowest_swinging_ball(cleaned(low).motion), lowest_plant() - 0.022);
 }
 
+TEST_F(RestyledFeet, KeepTheHeelOutOfTheFloorWhereTheBallAloneHolds) {
+  for (FootPoint& point : contacts_.points)
+    if (point.part == "heel") {
+      point.planted.assign(point.planted.size(), false);
+      point.heights.clear();
+    }
+  const Motion toes_up = turned(&Leg::ankle, -0.9), held = cleaned(toes_up).motion;
+  const WorldMotion world = world_motion(held), once = world_motion(toes_up);
+  double lowest = 1e9, jump = 0;
+  for (const FootPoint& ball : contacts_.points)
+    for (std::size_t t = 1; ball.part == "ball" && t + 1 < held.frames(); ++t) {
+      const int ankle = held.skeleton().find(ball.foot);
+      if (ball.planted[t]) lowest = std::min(lowest, world.position(ankle)[t].y);
+      const auto path = [&](std::size_t at) {
+        return point_at(world, ball.joint, ball.local, at) - point_at(once, ball.joint, ball.local, at);
+      };
+      jump = std::max(jump, norm(path(t - 1) - 2 * path(t) + path(t + 1)));
+    }
+  EXPECT_GT(lowest, contacts_.floor - 0.003);
+  EXPECT_LT(jump * held.fps() * held.fps(), 150) << "m/s²";
+}
+
 // Weights of 0 leave a frame as it was, also where its foot swings low.
 TEST_F(RestyledFeet, StayWhereTheChangeIsNotWanted) {
   const Motion low = turned(&Leg::ankle, 0.5);
