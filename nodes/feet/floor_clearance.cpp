@@ -59,32 +59,38 @@ class Raising {
  public:
   Raising(std::size_t frames, double most) : most_(most), need_(frames, 0.0), axis_(frames) {}
 
-  // In this frame it reaches `along` from where it turns. False: no turn could raise it.
-  bool reaches(std::size_t t, Vec3 along) {
+  // In this frame it turns about `at` and reaches `along` from there.
+  void ask(std::size_t t, Vec3 at, Vec3 along, double height) {
+    const double length = norm(along), wanted = length > 0 ? (height - at.y) / length : 0;
     const Vec3 side{along.z, 0, -along.x};
-    if (norm(side) <= 1e-6 * norm(along)) return false;
+    if (norm(side) <= 1e-6 * length || along.y >= wanted * length) return;
     // About this axis a positive turn takes the end down.
     axis_[t] = normalized(side);
-    return true;
-  }
-  // The same, and from `at` it is to come above a height.
-  void ask(std::size_t t, Vec3 at, Vec3 along, double height) {
-    if (!reaches(t, along)) return;
-    const double length = norm(along), wanted = (height - at.y) / length;
-    if (along.y >= wanted * length) return;
     need_[t] = std::min(elevation(wanted) - elevation(along.y / length), most_);
   }
-  // World turns, none in `fixed` frames; empty where nothing was asked.
+  // World turns, none in `fixed` frames; empty where nothing was asked. What rises before and after the
+  // frames that asked turns about the axis of the nearest: the foot's own would swing round where it hangs.
   std::vector<Quat> turns(const std::vector<bool>& fixed, double fps, double blend) const {
     if (!any(need_)) return {};
     const std::vector<double> rise = rise_smoothly(need_, fixed, fps, blend);
     std::vector<Quat> turns(need_.size());
-    for (std::size_t t = 0; t < turns.size(); ++t)
-      if (norm(axis_[t]) > 0) turns[t] = axis_angle(axis_[t], -rise[t]);
+    std::size_t before = next_asked(0), after = before;  // the asking frames on both sides
+    for (std::size_t t = 0; t < turns.size(); ++t) {
+      if (t > after) {
+        before = after;
+        after = next_asked(t);
+      }
+      const bool nearer_after = after < need_.size() && t > before && after - t < t - before;
+      turns[t] = axis_angle(axis_[nearer_after ? after : before], -rise[t]);
+    }
     return turns;
   }
 
  private:
+  std::size_t next_asked(std::size_t from) const {
+    while (from < need_.size() && need_[from] <= 0) ++from;
+    return from;
+  }
   static double elevation(double sine) { return pi / 2 - arc_cosine(std::clamp(sine, -1.0, 1.0)); }
 
   double most_;
@@ -136,12 +142,9 @@ void raise_heels(const FootTrack& foot, const PlantPositions& places, const Floo
   std::vector<bool> stands(foot.frames());
   for (std::size_t t = 0; t < foot.frames(); ++t) {
     stands[t] = foot.heel.planted_at(t) || places.steady[t];
+    if (stands[t] || !foot.ball.planted_at(t)) continue;
     const Vec3 heel = foot.heel.from_ankle.empty() ? Vec3{} : foot.heel.from_ankle[t];
-    const Vec3 along = rotate(targets.turn[t], heel - foot.ball.from_ankle[t]);
-    if (foot.ball.planted_at(t) && !stands[t])
-      raising.ask(t, places.ball[t], along, limits.heel[t]);
-    else
-      raising.reaches(t, along);
+    raising.ask(t, places.ball[t], rotate(targets.turn[t], heel - foot.ball.from_ankle[t]), limits.heel[t]);
   }
   const std::vector<Quat> turns = raising.turns(stands, fps, blend);
   for (std::size_t t = 0; t < turns.size(); ++t) targets.turn[t] = turns[t] * targets.turn[t];
