@@ -11,7 +11,7 @@ namespace kinegraph {
 NodeType cartoon_filter_node() {
   NodeType type;
   type.name = "CartoonFilter";
-  type.code_version = 3;
+  type.code_version = 4;
   type.category = "cartoon";
   type.help =
       "Two other ways to exaggerate, to compare Exaggerate with: the cartoon animation filter and bands of "

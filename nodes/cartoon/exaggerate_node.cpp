@@ -58,7 +58,7 @@ ExaggerateParams settings_of(const Params& params, const Motion& motion, Work& w
 NodeType exaggerate_node() {
   NodeType type;
   type.name = "Exaggerate";
-  type.code_version = 7;
+  type.code_version = 8;
   type.category = "cartoon";
   type.help =
       "Exaggerates a motion: every joint swings further from its own average over time, and limbs stretch "

@@ -11,6 +11,8 @@
 namespace kinegraph {
 namespace {
 
+constexpr int most_rounds = 10;
+
 constexpr double hold_to_identity = 0.005;  // of the links' squared length, about each axis
 constexpr double zero_link = 1e-5;          // of the height
 
@@ -108,6 +110,7 @@ void aim_branch(std::span<const Vec3> axes, ConstVec3Track old_at, std::span<con
   }
   // Where the turn between input and result stays, the result twists as the input does.
   const double quick = cosine(0.5 * limits.twist_departure), quick_out = cosine(0.5 * limits.twist);
+  const auto twist_of = [&](Quat step, std::size_t i) { return std::fabs(HalfTwist(step, axes[i]).angle()); };
   std::vector<double> most(frames, limits.twist_departure);
   bool jumps = false;
   for (std::size_t t = 1; t < frames; ++t) {
@@ -115,15 +118,28 @@ void aim_branch(std::span<const Vec3> axes, ConstVec3Track old_at, std::span<con
     if (apart < quick) jumps = true;
     if (std::fabs(dot(out[t - 1], out[t])) >= quick_out) continue;
     double input = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      input = std::max(input, std::fabs(HalfTwist(inverse(old[t - 1]) * old[t], axes[i]).angle()));
-    }
+    for (std::size_t i = 0; i < count; ++i)
+      input = std::max(input, twist_of(inverse(old[t - 1]) * old[t], i));
     most[t] = std::clamp(limits.twist - input, 0.0, limits.twist_departure);
     jumps = jumps || apart < cosine(0.5 * most[t]);
   }
-  if (jumps) {
-    turned = with_turns_within(turned, most);
+  // A departure across a quick swing twists by more than itself: there it gets less.
+  const std::vector<Quat> wished = turned;
+  for (int round = 0; jumps && round < most_rounds; ++round) {
+    turned = with_turns_within(wished, most);
     for (std::size_t t = 0; t < frames; ++t) out.set(t, normalized(turned[t] * old[t]));
+    jumps = false;
+    for (std::size_t t = 1; t < frames; ++t) {
+      if (std::fabs(dot(out[t - 1], out[t])) >= quick_out || most[t] == 0) continue;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (twist_of(inverse(out[t - 1]) * out[t], i) <=
+            std::max(limits.twist, twist_of(inverse(old[t - 1]) * old[t], i)))
+          continue;
+        most[t] = round + 2 < most_rounds ? 0.5 * most[t] : 0;
+        jumps = true;
+        break;
+      }
+    }
   }
   make_continuous(out.x, out.y, out.z, out.w);
 }

@@ -17,6 +17,10 @@ constexpr int most_repetitions = 40;
 constexpr double strongest_push = -0.3;
 constexpr int most_halvings = 8;
 
+// Frames in which the driven jump, by how much their speed changes, in parts of the tree's height a second,
+// and for how long the swing that starts there is gone through in twice as many steps.
+constexpr double jump_speed = 4, jump_seconds = 0.5;
+
 // A number a particle, or three, apart by axis, so that a loop over links takes several at once.
 using Row = std::vector<double>;
 struct Axes {
@@ -265,6 +269,34 @@ int steps_of_a_frame(const MassSpringParams& params, double fps) {
   return std::max({1, params.substeps, static_cast<int>(std::ceil(rate / fps - 1e-9))});
 }
 
+// Whether each frame, up to the next, lies in the swing that a jump of the driven particles starts.
+std::vector<bool> after_jumps(const std::vector<int>& parents, const ParticlePath& driven, double fps) {
+  const std::size_t frames = driven.frames(), count = driven.particles;
+  std::vector<double> way(count);  // from the root, in the first frame
+  double longest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (parents[i] < 0) continue;
+    const auto p = static_cast<std::size_t>(parents[i]);
+    way[i] = way[p] + norm(driven.at[i] - driven.at[p]);
+    longest = std::max(longest, way[i]);
+  }
+  const double most = jump_speed * longest / fps;
+  const auto last = static_cast<std::size_t>(std::ceil(jump_seconds * fps));
+  std::vector<bool> after(frames);
+  std::size_t until = 0;
+  for (std::size_t t = 0; t < frames; ++t) {
+    double square = 0;
+    for (std::size_t i = 0; i < count && t + 2 < frames; ++i) {
+      const Vec3* here = &driven.at[t * count + i];
+      const Vec3 change = (here[2 * count] - here[count]) - (here[count] - here[0]);
+      square = std::max(square, dot(change, change));
+    }
+    if (longest > 0 && square > most * most) until = t + last;
+    after[t] = t < until;
+  }
+  return after;
+}
+
 }  // namespace
 
 MassSpringResult simulate(const std::vector<int>& parents, const ParticlePath& driven, double fps,
@@ -288,9 +320,11 @@ MassSpringResult simulate(const std::vector<int>& parents, const ParticlePath& d
     if (with_velocities) chain.velocities(of(result.velocities));
   };
   keep(0);
-  const int steps = steps_of_a_frame(params, fps);
-  const double h = 1 / (fps * steps);
+  const int usual = steps_of_a_frame(params, fps);
+  const std::vector<bool> jumps = after_jumps(parents, driven, fps);
   for (std::size_t frame = 0; frame + 1 < driven.frames(); ++frame) {
+    const int steps = jumps[frame] ? 2 * usual : usual;
+    const double h = 1 / (fps * steps);
     for (int step = 1; step <= steps; ++step) {
       if (step % 64 == 1) work.check();
       if (step < steps) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "nodes/cartoon/contact_joints.h"
+#include "nodes/cartoon/limb_swings.h"
 #include "nodes/cartoon/link_turns.h"
 #include "nodes/cartoon/planted_limbs.h"
 #include "nodes/cartoon/sub_joint_flips.h"

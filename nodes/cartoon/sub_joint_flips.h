@@ -1,4 +1,4 @@
-// Calms curves and springs for the moments in which they would flip a sub-link round between two frames.
+// Finds sub-links that flip round between two frames, and takes that out of curves.
 #pragma once
 #include <vector>
 
@@ -16,25 +16,22 @@ class FlipWatch {
   FlipWatch(const SubJoints& sub, const Skeleton& rubber, const WorldMotion& world, double fps);
   // Those of the link between sub-joint i and its parent.
   std::vector<std::size_t> flips(const WorldMotion& places, int i) const;
+  bool watches(int i) const { return shortest_squared_[i] >= 0; }
+  // Radians that it may turn from frame t − 1 to t, and what it may at least in every frame.
+  double allowed(int i, std::size_t t) const;
+  double always_allowed() const { return most_; }
 
  private:
-  double allowed(int i, std::size_t t) const;
   const SubJoints& sub_;
   const WorldMotion& world_;
   std::vector<int> parents_;
   std::vector<double> shortest_squared_;  // below it a link may turn as it likes; negative: not watched
-  double most_;
+  double most_, cosine_squared_;          // of most_; over 1: where that is over a right angle
 };
 
 // Where a group's curve flips, its sub-joints go for a moment to their straight links: a tight loop lies
 // close beside them. Joints stay where they are.
 void straighten_flips(const SubJoints& sub, const FlipWatch& watch, const WorldMotion& world, double fps,
                       WorldMotion& places, Work& work);
-
-// Adds swings to `places`: swing[frame * sub-joints + i], of which left[i][frame] is taken (empty: all).
-// Where that flips a link, the limb it is in swings less for a moment, down to hanging stiffly on the joint
-// it branches off from; a limb that still flips then, together with the one it hangs on.
-void add_swings(const SubJoints& sub, const FlipWatch& watch, std::vector<Vec3> swing,
-                const std::vector<std::vector<double>>& left, double fps, WorldMotion& places, Work& work);
 
 }  // namespace kinegraph

@@ -1,0 +1,119 @@
+#include "nodes/cartoon/swing_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/cartoon/planted_limbs.h"
+#include "nodes/motion/elementary.h"
+
+namespace kinegraph {
+namespace {
+
+// Of the still link's length, what a swung one has along it at least.
+constexpr double least_along = 0.25;
+
+double angle_between(Vec3 a, Vec3 b) {
+  return arc_tangent2(norm(cross(a, b)), dot(a, b));
+}
+
+Vec3 any_across(Vec3 axis) {
+  return normalized(cross(axis, std::fabs(axis.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+}
+
+// `across`, at right angles to `from`, turned with it to `to`; unit vectors.
+Vec3 carried(Vec3 across, Vec3 from, Vec3 to) {
+  const double sum = 1 + dot(from, to);
+  if (sum < 1e-9) return any_across(to);
+  const Vec3 there = across - (dot(to, across) / sum) * (from + to);
+  return normalized(there - dot(there, to) * to);
+}
+
+// Where a swing points as seen along its still link: the angle between, in the direction across.
+struct Aim {
+  double x = 0, y = 0;
+  double size() const { return std::sqrt(x * x + y * y); }
+};
+Aim operator-(Aim a, Aim b) {
+  return {a.x - b.x, a.y - b.y};
+}
+
+Aim aim_of(Vec3 swung, Vec3 axis, Vec3 across) {
+  const double along = dot(swung, axis), x = dot(swung, across), y = dot(swung, cross(axis, across));
+  const double aside = std::sqrt(x * x + y * y);
+  if (!(aside > 0)) return {};
+  const double part = arc_tangent2(aside, along) / aside;
+  return {part * x, part * y};
+}
+
+Vec3 direction_of(Aim aim, Vec3 axis, Vec3 across) {
+  const double angle = aim.size();
+  if (!(angle > 0)) return axis;
+  const SinCos part = sin_cos(angle);
+  return part.cos * axis + (part.sin / angle) * (aim.x * across + aim.y * cross(axis, across));
+}
+
+Vec3 without_back(Vec3 still, Vec3 axis, Vec3 swung) {
+  const double missing = least_along * norm(still) - dot(swung, axis);
+  return missing > 0 ? swung + missing * axis : swung;
+}
+
+// Midway between following forwards and backwards. False: nothing is too fast.
+bool hold_steps(std::vector<Aim>& aims, std::span<const double> most) {
+  const auto follow = [](Aim from, Aim to, double step) {
+    const double far = (to - from).size();
+    return far > step ? Aim{from.x + step / far * (to.x - from.x), from.y + step / far * (to.y - from.y)}
+                      : to;
+  };
+  bool fast = false;
+  for (std::size_t t = 1; t < aims.size() && !fast; ++t) fast = (aims[t] - aims[t - 1]).size() > most[t];
+  if (!fast) return false;
+  std::vector<Aim> backward = aims;
+  for (std::size_t t = aims.size(); t-- > 1;) backward[t - 1] = follow(backward[t], backward[t - 1], most[t]);
+  for (std::size_t t = 1; t < aims.size(); ++t) aims[t] = follow(aims[t - 1], aims[t], most[t]);
+  for (std::size_t t = 0; t < aims.size(); ++t)
+    aims[t] = {0.5 * (aims[t].x + backward[t].x), 0.5 * (aims[t].y + backward[t].y)};
+  return true;
+}
+
+}  // namespace
+
+double swing_step(Vec3 still_before, Vec3 swung_before, Vec3 still, Vec3 swung) {
+  const Vec3 from = normalized(still_before), to = normalized(still), across = any_across(from);
+  return (aim_of(swung, to, carried(across, from, to)) - aim_of(swung_before, from, across)).size();
+}
+
+bool points_back(Vec3 still, Vec3 swung) {
+  return !(dot(swung, still) > least_along * dot(still, still));
+}
+
+std::vector<Vec3> hold_swing(std::span<const Vec3> still, std::span<const Vec3> swung,
+                             std::span<const double> most, double fade) {
+  const std::size_t frames = still.size();
+  std::vector<double> room(frames);  // what the swing may turn
+  std::vector<bool> free(frames);
+  for (std::size_t t = 1; t < frames; ++t) {
+    const double own = angle_between(still[t - 1], still[t]);
+    room[t] = std::max(most[t] - own, 0.0);
+    if (own > most[t]) free[t - 1] = free[t] = true;
+  }
+  for (std::size_t t = 0; t < frames; ++t)
+    if (!(dot(still[t], still[t]) > 0)) free[t] = true;
+  const std::vector<double> away = faded(free, fade);
+  std::vector<Vec3> out(swung.begin(), swung.end()), axes(frames), across(frames);
+  std::vector<Aim> aims(frames);
+  for (std::size_t t = 0; t < frames; ++t) {
+    axes[t] = normalized(still[t]);
+    if (axes[t] == Vec3{}) axes[t] = t > 0 ? axes[t - 1] : Vec3{0, 1, 0};
+    across[t] = t > 0 ? carried(across[t - 1], axes[t - 1], axes[t]) : any_across(axes[t]);
+    if (away[t] > 0) out[t] = still[t] + (1 - away[t]) * (swung[t] - still[t]);
+    out[t] = without_back(still[t], axes[t], out[t]);
+    aims[t] = aim_of(out[t], axes[t], across[t]);
+  }
+  const std::vector<Aim> wished = aims;
+  if (!hold_steps(aims, room)) return out;
+  for (std::size_t t = 0; t < frames; ++t)
+    if ((aims[t] - wished[t]).size() > 0) out[t] = norm(out[t]) * direction_of(aims[t], axes[t], across[t]);
+  return out;
+}
+
+}  // namespace kinegraph
