@@ -10,6 +10,7 @@
 #include "graph/file/parse_json.h"
 #include "nodes/files/gltf_character_out.h"
 #include "nodes/files/gltf_file.h"
+#include "nodes/files/gltf_morphs.h"
 #include "nodes/files/stretch.h"
 
 namespace kinegraph {
@@ -232,8 +233,15 @@ void add_bare_skin(GltfOut& out, const Skeleton& skeleton, const JointNodes& nod
 
 }  // namespace
 
-GltfOut gltf_of(const Motion* given, const Character* character, const WriteOptions& options, Work& work) {
+GltfOut gltf_of(const Motion* given, const Character* meant, const WriteOptions& options, Work& work) {
   GltfOut out;
+  if (meant && meant->source) out.root = source_json(*meant->source);
+  Character within;
+  const Character* character = meant;
+  if (meant && !meant->morph_tracks.empty()) {
+    within = with_weights_from_0_to_1(*meant, source_targets(*meant, out.root));
+    character = &within;
+  }
   Motion kept;
   const Motion* motion = given;
   if (given && options.stretch != "keep") {
@@ -246,7 +254,6 @@ GltfOut gltf_of(const Motion* given, const Character* character, const WriteOpti
   std::vector<int> node_of_part;
   if (character && character->source && !character->rebound) {
     const CharacterSource& source = *character->source;
-    out.root = source_json(source);
     if (animates) out.root.object().erase("animations");
     if (options.repair) drop_source_weights(out, *character);
     out.carry_over(source, options.repair);
@@ -256,7 +263,6 @@ GltfOut gltf_of(const Motion* given, const Character* character, const WriteOpti
     if (options.repair) node_of_part = repair_skins(out, *character);
   } else {
     if (character && character->source) {
-      out.root = source_json(*character->source);
       for (const char* gone : {"animations", "nodes", "skins", "scenes", "scene", "cameras"})
         out.root.object().erase(gone);
       keep_meshes_of_parts(out, *character);

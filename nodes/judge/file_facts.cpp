@@ -233,8 +233,10 @@ FileFacts facts_of(const MotionFile& file, const std::string& path, FileAccess& 
       facts.told.push_back(std::move(problem));
       ++facts.non_finite;
     }
-  if (const auto* character = dynamic_cast<const Character*>(file.find("character")))
+  if (const auto* character = dynamic_cast<const Character*>(file.find("character"))) {
     facts.gltf = inventory_of(*character);
+    for (Diagnostic& one : for_other_programs(*character)) facts.told.push_back(std::move(one));
+  }
   if (file.format == "gltf") {
     facts.gltf = gltf_inventory(*files.read(path), path, files);
     for (Diagnostic& one : of_gltf(*facts.gltf)) facts.told.push_back(std::move(one));

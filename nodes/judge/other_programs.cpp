@@ -123,4 +123,22 @@ Diagnostics for_other_programs(const Motion& motion) {
   return found;
 }
 
+Diagnostics for_other_programs(const Character& character) {
+  std::vector<std::string> beyond;
+  double low = 0, high = 1;
+  for (const MorphTrack& track : character.morph_tracks) {
+    if (track.weights.empty()) continue;
+    const auto [least, most] = std::minmax_element(track.weights.begin(), track.weights.end());
+    if (*least >= 0 && *most <= 1) continue;
+    beyond.push_back(character.parts[track.part].morphs[track.target].name);
+    low = std::min(low, *least);
+    high = std::max(high, *most);
+  }
+  if (beyond.empty()) return {};
+  return {
+      warning("morph-weights", fmt::format("weights of morph targets go from {:.3g} to {:.3g}, and Blender "
+                                           "holds them between 0 and 1: {}",
+                                           low, high, some_of(beyond)))};
+}
+
 }  // namespace kinegraph

@@ -1,6 +1,7 @@
 // What other programs will stumble over in a motion file, though it is read here.
 #pragma once
 #include "graph/diagnostic.h"
+#include "nodes/motion/character.h"
 #include "nodes/motion/motion.h"
 
 namespace kinegraph {
@@ -11,6 +12,8 @@ namespace kinegraph {
 // hardly turns, which programs that interpolate channels take for a turn. no-end-site: chains that end in a
 // joint. up-axis: the legs point along Z.
 Diagnostics for_other_programs(const Motion& motion);
+// morph-weights: Blender holds the weights of morph targets between 0 and 1.
+Diagnostics for_other_programs(const Character& character);
 
 // The first few names, and how many more there are.
 std::string some_of(const std::vector<std::string>& names);

@@ -22,10 +22,6 @@ bpy.ops.import_scene.gltf(filepath=path)
 armatures = [o for o in bpy.data.objects if o.type == "ARMATURE"]
 shapes = {bone.custom_shape for a in armatures for bone in a.pose.bones}  # which the importer draws bones with
 meshes = [o for o in scene.objects if o.type == "MESH" and o not in shapes]
-# Blender holds a shape key between 0 and 1 until its slider is given more room; glTF's weights may be any number.
-for mesh in meshes:
-    for key in mesh.data.shape_keys.key_blocks if mesh.data.shape_keys else ():
-        key.slider_min, key.slider_max = -10, 10
 # Of a mesh without a skeleton its shape keys are what moves.
 moving = [a for a in armatures if a.animation_data] or [o.data.shape_keys for o in meshes if o.data.shape_keys]
 first, last = (round(v) for v in moving[0].animation_data.action.frame_range)

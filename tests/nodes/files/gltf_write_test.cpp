@@ -274,6 +274,42 @@ TEST(GltfOut, WritesACharacterThatNoFileGave) {
   }
 }
 
+// Blender holds a morph target's weight between 0 and 1.
+TEST(GltfOut, GivesATargetThatMovesBothWaysOneForEachSoThatAllWeightsAreFromZeroToOne) {
+  Alone work;
+  Character character;
+  MeshPart part;
+  part.name = "triangle";
+  part.positions = {0, 1, 0, 0.1f, 1, 0, 0, 1.1f, 0};
+  part.triangles = {0, 1, 2};
+  part.morphs.push_back({"up", {0, 1, 0, 0, 1, 0, 0, 1, 0}, {}});
+  part.morphs.push_back({"out", {0, 0, 1, 0, 0, 2, 0, 0, 0}, {}});
+  part.morphs.push_back({"in", {1, 0, 0, 0, 0, 0, 0, 0, 0}, {}});
+  part.morphs.push_back({"still", {5, 0, 0, 0, 5, 0, 0, 0, 5}, {}});
+  character.parts.push_back(part);
+  character.morph_fps = 30;
+  character.morph_tracks.push_back({0, 0, {0, 0.25, -0.5, 0.02}});
+  character.morph_tracks.push_back({0, 1, {0, 3, 1.5, 0}});
+  character.morph_tracks.push_back({0, 2, {-1, -2, 0, -0.5}});
+  const GltfContents back = again(gltf_of(nullptr, &character, {}, work), work);
+  const MeshPart& is = back.character->parts.at(0);
+  std::vector<std::string> names;
+  for (const MorphTarget& target : is.morphs) names.push_back(target.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"up", "up-", "out", "in-", "still"}));
+  for (const MorphTrack& track : back.character->morph_tracks)
+    for (double weight : track.weights) {
+      EXPECT_GE(weight, 0);
+      EXPECT_LE(weight, 1);
+    }
+  for (std::size_t t = 0; t < 4; ++t) {
+    const auto was =
+        posed_vertices(character, part, rest_pose_of(*character.skeleton), morph_weights_at(character, t)[0]);
+    const auto now = posed_vertices(*back.character, is, rest_pose_of(*back.character->skeleton),
+                                    morph_weights_at(*back.character, t)[0]);
+    for (std::size_t v = 0; v < 3; ++v) EXPECT_LT(norm(was[v] - now[v]), 1e-6) << t << " " << v;
+  }
+}
+
 TEST(GltfOut, RefusesAMotionWithoutACommonJoint) {
   KINEGRAPH_NEEDS_MOCAP();
   Alone work;

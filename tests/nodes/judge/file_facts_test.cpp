@@ -6,6 +6,7 @@
 #include <map>
 
 #include "nodes/components/components.h"
+#include "nodes/motion/character.h"
 #include "nodes/motion/metrics.h"
 #include "tests/mocap.h"
 #include "tests/nodes/files/bvh_texts.h"
@@ -70,6 +71,21 @@ TEST(FileFacts, OfMarkersCountWhatIsMissingInTheFile) {
   EXPECT_THAT(trial.text, HasSubstr("longest: PV2, frames 403 to 449"));
   EXPECT_EQ(codes(trial.facts).find("long-gap"), std::string::npos);
   EXPECT_NEAR(trial.facts.points->height, 0.93, 0.01);
+}
+
+TEST(FileFacts, OfMorphTargetsTellWeightsThatBlenderDoesNotReach) {
+  auto face = std::make_shared<Character>();
+  face->parts.emplace_back().morphs = {{"brow", {}, {}}, {"jaw", {}, {}}};
+  face->morph_fps = 30;
+  face->morph_tracks = {{0, 0, {0, 1, 0.5}}, {0, 1, {0, 0.25, -0.125}}};
+  MotionFile file;
+  file.contents.push_back({"character", face});
+  PlainFiles files;
+  Alone work;
+  const FileFacts facts = facts_of(file, "face", files, {}, work);
+  EXPECT_EQ(codes(facts), "morph-weights ");
+  EXPECT_THAT(facts.told.at(0).message,
+              HasSubstr("from -0.125 to 1, and Blender holds them between 0 and 1: jaw"));
 }
 
 TEST(FileFacts, OfGltfListClipsSkinsAndMeshesAndWhatRepairMends) {
