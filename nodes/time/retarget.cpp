@@ -188,7 +188,7 @@ RetargetResult retarget(const Motion& motion, const RetargetTarget& to, const Re
   if (out.pairs.source.pelvis >= 0) warn_not_upright(source_stands, "motion", work);
   if (out.pairs.target.pelvis >= 0) warn_not_upright(target_stands, "target", work);
   const std::vector<LinkPlan> plans =
-      plan_links(from_skeleton, skeleton, out.pairs, source_stands, target_stands);
+      plan_links(from_skeleton, skeleton, out.pairs, source_stands, target_stands, params.feet_by);
   tell_shapes(plans, skeleton, work);
   for (const LinkPlan& plan : plans) out.link_to.push_back(plan.to);
 
@@ -214,7 +214,7 @@ RetargetResult retarget(const Motion& motion, const RetargetTarget& to, const Re
       place_root({&from_skeleton, &world, &source_stands}, {&skeleton, &target_stands, to.sole}, out.pairs,
                  params.scale, result, work);
   out.scale = placed.scale;
-  if (!target_stands.frame)
+  if (!target_stands.frame && params.feet_by == FeetBy::sole)
     keep_soles_up(out.pairs.target.legs, target_stands, to.feet, placed.ground, result, work);
   for (int j = 0; j < skeleton.size(); ++j) {
     const QuatTrack track = result.rotation(j);

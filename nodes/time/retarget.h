@@ -13,7 +13,7 @@
 // small turn where that brings all of its links within 5°. Feet are aligned
 // by their soles: C turns about up only, as the angle from ankle to toe depends on how high the ankle stands.
 // Where points of a mesh would be under the ground, toes and feet are bent up by the least that keeps them on
-// it.
+// it. Or, where that is asked for, feet are links as those of limbs, and point where the source's do.
 #pragma once
 #include <optional>
 #include <string>
@@ -22,13 +22,15 @@
 #include "graph/work.h"
 #include "nodes/motion/motion.h"
 #include "nodes/time/joint_pairs.h"
+#include "nodes/time/retarget_links.h"
 #include "nodes/time/retarget_soles.h"
 
 namespace kinegraph {
 
 struct RetargetParams {
-  std::vector<std::string> map;  // as pair_joints
-  double scale = 0;              // of travel and height; 0 = by the length of the legs
+  std::vector<std::string> map;   // as pair_joints
+  double scale = 0;               // of travel and height; 0 = by the length of the legs
+  FeetBy feet_by = FeetBy::sole;  // where a foot has no toe joint on either side, its sole counts
 };
 
 struct RetargetTarget {

@@ -15,8 +15,8 @@ enum class Kind { whole, middle, limb, foot };
 class Planning {
  public:
   Planning(const Skeleton& source, const Skeleton& target, const JointPairs& pairs, const StandingPose& a,
-           const StandingPose& b)
-      : source_(source), target_(target), pairs_(pairs), a_(a), b_(b) {
+           const StandingPose& b, FeetBy feet_by)
+      : source_(source), target_(target), pairs_(pairs), a_(a), b_(b), feet_by_(feet_by) {
     const double yaw = a.facing && b.facing ? *a.facing - *b.facing : 0;
     // Rest poses that face alike within a few degrees are meant to.
     const double off = turn(about_y(yaw));
@@ -128,8 +128,12 @@ class Planning {
   Kind kind_of(int j) const {
     const Body& body = pairs_.target;
     if (j == pairs_.target_pelvis) return Kind::whole;
-    if (foot_of(target_, body, j) >= 0 && foot_of(source_, pairs_.source, pairs_.source_of[j]) >= 0)
-      return Kind::foot;
+    const int own = foot_of(target_, body, j);
+    if (own >= 0 && foot_of(source_, pairs_.source, pairs_.source_of[j]) >= 0)
+      return feet_by_ == FeetBy::direction &&
+                     next_of(body.legs[static_cast<std::size_t>(own)].ankle, Kind::limb) >= 0
+                 ? Kind::limb
+                 : Kind::foot;
     if (body.head >= 0 && target_.is_below(j, body.head)) return Kind::whole;
     if (is_central(body, j)) return Kind::middle;
     for (const Leg& leg : body.legs)
@@ -184,6 +188,7 @@ class Planning {
   const Skeleton &source_, &target_;
   const JointPairs& pairs_;
   const StandingPose &a_, &b_;
+  const FeetBy feet_by_;
   const double tiny_a_ = 1e-4 * rest_height(source_), tiny_b_ = 1e-4 * rest_height(target_);
   Quat facing_;
 };
@@ -191,8 +196,9 @@ class Planning {
 }  // namespace
 
 std::vector<LinkPlan> plan_links(const Skeleton& source, const Skeleton& target, const JointPairs& pairs,
-                                 const StandingPose& source_stands, const StandingPose& target_stands) {
-  return Planning(source, target, pairs, source_stands, target_stands).plans();
+                                 const StandingPose& source_stands, const StandingPose& target_stands,
+                                 FeetBy feet_by) {
+  return Planning(source, target, pairs, source_stands, target_stands, feet_by).plans();
 }
 
 }  // namespace kinegraph

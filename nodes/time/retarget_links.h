@@ -7,6 +7,9 @@
 
 namespace kinegraph {
 
+// What a foot has in common with the source's.
+enum class FeetBy { sole, direction };
+
 // What a joint of the target does.
 struct LinkPlan {
   int source = -1;  // its partner
@@ -20,6 +23,7 @@ struct LinkPlan {
 };
 
 std::vector<LinkPlan> plan_links(const Skeleton& source, const Skeleton& target, const JointPairs& pairs,
-                                 const StandingPose& source_stands, const StandingPose& target_stands);
+                                 const StandingPose& source_stands, const StandingPose& target_stands,
+                                 FeetBy feet_by);
 
 }  // namespace kinegraph

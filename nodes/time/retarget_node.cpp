@@ -37,6 +37,8 @@ Motion standing(const Character& character) {
 NodeType retarget_node() {
   NodeType type;
   type.name = "Retarget";
+  type.version = 2;
+  type.migrations = {{1, [](Json::Object&, Json::Object&) {}}};  // feet is new; its default is what was done
   type.code_version = 4;
   type.category = "time";
   type.help =
@@ -56,12 +58,21 @@ NodeType retarget_node() {
              "others are found by names and shape. =TO and FROM= take a joint out.");
   type.param("scale", number(0).between(0, 1e6).slider(0, 3),
              "How many times as far and high the target goes; 0 = by the length of the legs.");
+  type.param("feet",
+             choice({{"soles",
+                      "Soles are flat where the motion's are; where a mesh would go below the ground, toes "
+                      "and feet bend."},
+                     {"direction",
+                      "From ankle to toes they point where the motion's do, so that soles tilt where "
+                      "one body has its ankles higher."}}),
+             "What feet have in common with the motion's.");
   type.compute = [](Compute& compute) {
     const auto& motion = compute.input<Motion>("motion");
     Work& work = compute.work();
     RetargetParams params;
     params.map = compute.params().texts("map");
     params.scale = compute.params().number("scale");
+    params.feet_by = compute.params().text("feet") == "soles" ? FeetBy::sole : FeetBy::direction;
     RetargetTarget target{compute.optional_input<Motion>("target"), {}, {}};
     Motion made;
     if (const auto* character = compute.optional_input<Character>("target")) {

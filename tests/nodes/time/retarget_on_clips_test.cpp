@@ -219,6 +219,43 @@ TEST(RetargetOnClips, keeps_directions_turns_and_plants_from_each_body_to_each_o
   }
 }
 
+// Soles then tilt where one body has its ankles higher, CesiumMan's by 50°; ankles stay about as high as over
+// flat ones.
+TEST(RetargetOnClips, feet_by_direction_point_from_ankle_to_toes_as_the_sources_do) {
+  KINEGRAPH_NEEDS_MOCAP();
+  Alone work;
+  RetargetParams params;
+  params.feet_by = FeetBy::direction;
+  std::vector<NamedBody> all = {amc(), bvh(), game_rig(), cesium_man(), knight(), mannequin()};
+  all.back().motion = put(all.front().motion, all.back().motion);
+  double largest = 0;
+  for (const NamedBody& from : all)
+    for (const NamedBody& to : all) {
+      if (&from == &to) continue;
+      SCOPED_TRACE(from.name + " to " + to.name);
+      const Motion made = retarget(from.motion, {&to.motion, {}, {}}, params, work).motion;
+      const LinkErrors links = link_errors(from.motion, from.roles, made, to.roles);
+      EXPECT_LT(links.direction, 0.01) << links.worst_direction;
+      EXPECT_LT(links.twist, 1) << links.worst_twist;
+      const WorldMotion a = world_motion(from.motion), b = world_motion(made),
+                        by_soles = world_motion(put(from.motion, to.motion));
+      for (const char* side : {".l", ".r"}) {
+        const std::string foot = std::string("foot") + side, toe = std::string("toe") + side;
+        const auto joint = [](const NamedBody& of, const std::string& role) {
+          return of.motion.skeleton().find(of.roles.at(role));
+        };
+        for (std::size_t t = 0; t < made.frames(); ++t) {
+          const Vec3 u = a.position(joint(from, toe))[t] - a.position(joint(from, foot))[t];
+          const Vec3 v = b.position(joint(to, toe))[t] - b.position(joint(to, foot))[t];
+          ASSERT_LT(turn(smallest_turn(u, v)) * degrees_per_radian, 0.01) << toe << " " << t;
+          largest = std::max(
+              largest, std::fabs(b.position(joint(to, foot))[t].y - by_soles.position(joint(to, foot))[t].y));
+        }
+      }
+    }
+  EXPECT_LT(largest, 0.06);  // m
+}
+
 // CMU's BVH and CesiumMan hold both thighs at angles that a small turn of the pelvis makes alike; with the
 // Mixamo-like figure no turn does, and the pelvis keeps how it stands.
 TEST(RetargetOnClips, the_pelvis_turns_a_little_where_that_makes_its_links_alike) {
