@@ -40,6 +40,7 @@ NodeType export_node() {
   const WriteOptions defaults;
   NodeType type;
   type.name = "Export";
+  type.code_version = 2;
   type.category = "files";
   type.help = "Writes a motion, points, a character or an analysis to a file, when it is asked to.";
   type.keywords = {"save", "write", "output", "bvh", "file"};
