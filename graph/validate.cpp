@@ -524,16 +524,29 @@ Diagnostics validate(const Document& document, const Registry& registry, const V
   return Validator(document, registry, options).validate();
 }
 
+Diagnostics all_problems(const Document& document, Diagnostics found_by_reading, bool in_doubt,
+                         const Registry& registry, const ValidateOptions& options) {
+  Diagnostics all = std::move(found_by_reading);
+  if (document.read_only || (has_error(all) && document.nodes.empty())) return all;
+  for (Diagnostic& problem : validate(document, registry, options)) {
+    const bool told = std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
+      return other.code == problem.code && other.place.line == problem.place.line &&
+             other.place.column == problem.place.column && other.message == problem.message;
+    });
+    if (!told) all.push_back(std::move(problem));
+  }
+  drop_consequences(all, in_doubt);
+  std::stable_sort(all.begin(), all.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+  return all;
+}
+
 ReadResult read_and_validate(std::string_view text, const Registry& registry,
                              const ValidateOptions& options) {
   ReadResult result = read_document(text, options.file, registry);
-  for (Diagnostic& problem : validate(result.document, registry, options))
-    result.problems.push_back(std::move(problem));
-  drop_consequences(result.problems, result.in_doubt);
-  std::stable_sort(result.problems.begin(), result.problems.end(),
-                   [](const Diagnostic& a, const Diagnostic& b) {
-                     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-                   });
+  result.problems =
+      all_problems(result.document, std::move(result.problems), result.in_doubt, registry, options);
   return result;
 }
 

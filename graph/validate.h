@@ -32,6 +32,11 @@ struct ValidateOptions {
 // "not-a-regular-file", "same-file".
 Diagnostics validate(const Document& document, const Registry& registry, const ValidateOptions& options);
 
+// What reading found and what validate() finds, each once, without what only follows from something else, in
+// file order.
+// `in_doubt` as ReadResult's.
+Diagnostics all_problems(const Document& document, Diagnostics found_by_reading, bool in_doubt,
+                         const Registry& registry, const ValidateOptions& options);
 // Reads and validates: all problems of a file at once, in file order.
 ReadResult read_and_validate(std::string_view text, const Registry& registry, const ValidateOptions& options);
 

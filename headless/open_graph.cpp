@@ -83,20 +83,7 @@ Opened open_graph(const std::string& argument, const Registry& registry, bool mi
 }
 
 Diagnostics all_problems(const Opened& opened, const Registry& registry, const ValidateOptions& options) {
-  Diagnostics all = opened.problems;
-  if (opened.document.read_only || (has_error(all) && opened.document.nodes.empty())) return all;
-  for (auto& problem : validate(opened.document, registry, options)) {
-    bool told = std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
-      return other.code == problem.code && other.place.line == problem.place.line &&
-             other.place.column == problem.place.column && other.message == problem.message;
-    });
-    if (!told) all.push_back(std::move(problem));
-  }
-  drop_consequences(all, opened.in_doubt);
-  std::stable_sort(all.begin(), all.end(), [](const Diagnostic& a, const Diagnostic& b) {
-    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-  });
-  return all;
+  return all_problems(opened.document, opened.problems, opened.in_doubt, registry, options);
 }
 
 void open_graphs_inside(Opened& opened, const Registry& registry,

@@ -13,6 +13,7 @@
 #include "graph/move_paths.h"
 #include "graph/nested.h"
 #include "graph/validate.h"
+#include "gui/document/aside.h"
 
 namespace kinegraph {
 namespace {
@@ -109,22 +110,30 @@ QString Session::written_path(const QString& absolute) const {
 }
 
 Diagnostics Session::open(const QString& path) {
-  QFile file(path);
-  if (!file.open(QIODevice::ReadOnly)) return unreadable(path, file.errorString());
-  const QByteArray bytes = file.readAll();
-  return open_text(std::string(bytes.constData(), static_cast<std::size_t>(bytes.size())),
-                   QFileInfo(path).absoluteFilePath());
+  return open(read_graph_file(path, registry_, modified_pages(), StopToken()));
 }
 
 Diagnostics Session::open_text(const std::string& text, const QString& path) {
-  ReadResult read = read_document(text, path.isEmpty() ? "untitled" : path.toStdString(), registry_);
-  if (has_error(read.problems)) return read.problems;
+  return open(read_graph_text(text, path, registry_, modified_pages(), StopToken()));
+}
+
+Diagnostics Session::open(GraphFile file) {
+  if (!file.opens()) {
+    refuse(file);
+    return file.problems;
+  }
+  refused_file_ = {};
   auto page = std::make_unique<Page>();
-  page->document = std::move(read.document);
-  page->path = path;
-  page->text_on_disk = text;
+  page->document = std::move(file.document);
+  page->path = file.path;
+  page->text_on_disk = std::move(file.text);
   show(std::move(page));
-  return read.problems;
+  return file.problems;
+}
+
+void Session::refuse(const GraphFile& file) {
+  refused_file_ = {file.path, file.problems};
+  emit problems_changed();
 }
 
 void Session::clear() {
@@ -139,7 +148,13 @@ void Session::show(std::unique_ptr<Page> page) {
       break;
     }
   autosave_.stop();
-  tell_of_page();
+  tell_of_page(false);
+}
+
+void Session::forget_refused() {
+  if (refused_file_.path.isEmpty()) return;
+  refused_file_ = {};
+  emit problems_changed();
 }
 
 std::string Session::text() const {
@@ -300,7 +315,11 @@ void Session::after(const Edit& edit) {
 }
 
 void Session::check_meaning(bool inside_too) {
-  if (inside_too) open_inside(page_->document, page_->path);
+  if (inside_too) read_inside();
+  check_structure();
+}
+
+void Session::check_structure() {
   ValidateOptions options;
   options.file = title().toStdString();
   options.folder = folder().toStdString();

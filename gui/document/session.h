@@ -16,8 +16,11 @@
 
 #include "graph/edit.h"
 #include "graph/registry.h"
+#include "gui/document/graph_file.h"
 
 namespace kinegraph {
+
+class Aside;
 
 class Session : public QObject {
   Q_OBJECT
@@ -43,7 +46,10 @@ class Session : public QObject {
   // Reading and writing. Problems that keep a file from opening leave the session as it was and are returned;
   // warnings of a file that opened are returned too. Saving throws Failure when it can't; into another folder
   // it rewrites relative paths, and absolute ones that lie near, so that they name the same files from there.
+  // A path is read here and now: who mustn't wait reads the file elsewhere (gui/document/graph_file.h) and
+  // gives what was read.
   Diagnostics open(const QString& path);
+  Diagnostics open(GraphFile file);
   Diagnostics open_text(const std::string& text, const QString& path);
   void clear();
   void save();
@@ -60,16 +66,22 @@ class Session : public QObject {
   QString page_title(int page) const;
   bool is_page_modified(int page) const;
   Diagnostics open_page(const QString& path);
-  void new_page();  // empty; the shown one where nothing was begun in it
+  Diagnostics open_page(GraphFile file);
+  bool show_page_of(const QString& path);  // false: it has none
+  void new_page();                         // empty; the shown one where nothing was begun in it
   void show_page(int page);
   void close_page(int page);  // the last one becomes an empty graph
   // Files of open pages with unsaved changes that the shown graph uses, directly or deeper. Until they are
   // saved it is evaluated with what is open.
   std::vector<int> modified_inside() const;
+  OpenGraphs modified_pages() const;
   // Graph files inside the shown graph, absolute. Those that changed on disk are read again by
-  // reopen_inside().
+  // reopen_inside(). They are read on another thread. What isn't there within a moment comes later, with
+  // changed() and meaning_changed(); until then Graph nodes keep what they had.
   QStringList files_inside() const;
   void reopen_inside();
+  bool is_reading_inside() const { return reading_ != nullptr; }
+  void stop_reading_inside();
 
   // Autosave: beside the file as .NAME.kg.json.autosave, in the state folder where that can't be written; at
   // most two seconds behind the work. One newer than the file is what an ended session left: autosave_found()
@@ -98,6 +110,16 @@ class Session : public QObject {
   // The structure's problems (graph/validate.h), kept up to date.
   const Diagnostics& problems() const { return page_->problems; }
 
+  // The file that was asked for last, if it can't be opened: all that is wrong with it. Forgotten once a
+  // graph is opened.
+  struct Refused {
+    QString path;
+    Diagnostics problems;
+  };
+  const Refused& refused_file() const { return refused_file_; }
+  void refuse(const GraphFile& file);
+  void forget_refused();
+
   // Selection: names of nodes; the current one is what the parameter panel and viewer show.
   const std::set<std::string>& selected() const { return page_->selected; }
   const std::string& current() const { return page_->current; }
@@ -110,6 +132,7 @@ class Session : public QObject {
   void page_changed();     // another graph is shown: nothing known of the one before holds
   void selection_changed();
   void problems_changed();
+  void reading_changed();                                     // is_reading_inside() is another
   void refused(const QString& message, const QString& hint);  // an edit was not possible
 
  private:
@@ -125,18 +148,24 @@ class Session : public QObject {
   };
   void after(const Edit& edit);
   void show(std::unique_ptr<Page> page);  // instead of the shown one
-  void tell_of_page();
+  void tell_of_page(bool inside_too = true);
   void check_meaning(bool inside_too = true);  // reads the graph files inside again, or leaves them
-  void open_inside(Document& document, const QString& path) const;
-  std::string text_inside(const std::string& path) const;
+  void check_structure();
+  void read_inside();
+  void take_inside(const Document& read);
+  void end_reading();
   void keep_selection_valid();
   bool write_autosave();
 
   const Registry& registry_;
   std::vector<std::unique_ptr<Page>> pages_;
   Page* page_;  // the shown one
+  Refused refused_file_;
   bool gesture_ = false, gesture_started_ = false;
   QTimer autosave_;
+  std::unique_ptr<Aside> reading_;               // of the graphs inside the shown one
+  std::vector<std::unique_ptr<Aside>> stopped_;  // readings on their way to their end
+  int readings_ = 0;
 };
 
 }  // namespace kinegraph

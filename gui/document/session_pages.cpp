@@ -1,15 +1,16 @@
 // Several graphs open at once, and the graph files inside the one that is shown.
 #include <QDir>
-#include <QFile>
 #include <QFileInfo>
-#include <algorithm>
+#include <atomic>
 
-#include "graph/file/write.h"
 #include "graph/nested.h"
+#include "gui/document/aside.h"
 #include "gui/document/session.h"
 
 namespace kinegraph {
 namespace {
+
+constexpr int a_moment_ms = 25;  // that the window's thread may wait for files inside
 
 void collect_files(const Document& document, QStringList& files) {
   for (const auto& [name, node] : document.nodes) {
@@ -38,22 +39,31 @@ bool Session::is_page_modified(int page) const {
   return !pages_[std::size_t(page)]->history.is_saved();
 }
 
-Diagnostics Session::open_page(const QString& path) {
+bool Session::show_page_of(const QString& path) {
   const QString wanted = QDir::cleanPath(QFileInfo(path).absoluteFilePath());
   for (int i = 0; i < pages(); ++i)
     if (!page_path(i).isEmpty() && QDir::cleanPath(page_path(i)) == wanted) {
       show_page(i);
-      return {};
+      return true;
     }
-  const int before = page();
-  pages_.insert(pages_.begin() + before + 1, std::make_unique<Page>());
-  show_page(before + 1);
-  const Diagnostics problems = open(path);
-  if (has_error(problems)) {
-    close_page(before + 1);
-    show_page(before);
+  return false;
+}
+
+Diagnostics Session::open_page(const QString& path) {
+  if (show_page_of(path)) return {};
+  return open_page(read_graph_file(path, registry_, modified_pages(), StopToken()));
+}
+
+Diagnostics Session::open_page(GraphFile file) {
+  if (!file.opens()) {
+    refuse(file);
+    return file.problems;
   }
-  return problems;
+  if (autosave_.isActive()) write_autosave();
+  end_gesture();
+  pages_.insert(pages_.begin() + page() + 1, std::make_unique<Page>());
+  page_ = pages_[std::size_t(page() + 1)].get();
+  return open(std::move(file));
 }
 
 void Session::new_page() {
@@ -87,13 +97,23 @@ void Session::close_page(int page) {
     emit file_changed();
 }
 
-void Session::tell_of_page() {
-  check_meaning();
+void Session::tell_of_page(bool inside_too) {
+  if (!inside_too) end_reading();  // of another graph
+  check_meaning(inside_too);
   emit page_changed();
   emit file_changed();
   emit selection_changed();
   emit changed();
   emit meaning_changed();
+}
+
+OpenGraphs Session::modified_pages() const {
+  OpenGraphs open;
+  for (int i = 0; i < pages(); ++i)
+    if (!page_path(i).isEmpty() && is_page_modified(i))
+      open[QDir::cleanPath(page_path(i)).toStdString()] =
+          std::make_shared<const Document>(pages_[std::size_t(i)]->document);
+  return open;
 }
 
 std::vector<int> Session::modified_inside() const {
@@ -117,28 +137,62 @@ void Session::reopen_inside() {
   emit meaning_changed();
 }
 
-std::string Session::text_inside(const std::string& path) const {
-  const QString wanted = QString::fromStdString(path);
-  for (const auto& one : pages_)
-    if (one.get() != page_ && !one->path.isEmpty() && QDir::cleanPath(one->path) == wanted)
-      return write_document(one->document, registry_);
-  QFile file(wanted);
-  if (!file.open(QIODevice::ReadOnly))
-    throw Failure(error("missing-file", file.errorString().toStdString()).in_file(path));
-  return file.readAll().toStdString();
+// A reading that is on its way to its end is left to it: nobody waits.
+void Session::end_reading() {
+  ++readings_;
+  std::erase_if(stopped_, [](const auto& one) { return one->wait(0); });
+  if (!reading_) return;
+  reading_->stop();
+  if (!reading_->wait(0)) stopped_.push_back(std::move(reading_));
+  reading_.reset();
+  emit reading_changed();
 }
 
-void Session::open_inside(Document& document, const QString& path) const {
-  const bool any = std::any_of(document.nodes.begin(), document.nodes.end(), [&](const auto& entry) {
-    const NodeType* type = entry.second.missing ? nullptr : registry_.find(entry.second.type);
-    return type && type->role == Role::graph;
-  });
-  if (!any) return;
-  NestedOptions options;
-  options.path = path.toStdString();
-  options.folder = options.set_folder = folder().toStdString();
-  options.read = [this](const std::string& file) { return text_inside(file); };
-  open_nested(document, registry_, options);
+void Session::stop_reading_inside() {
+  end_reading();
+}
+
+void Session::read_inside() {
+  end_reading();
+  if (!has_graphs_inside(document(), registry_)) return;
+  const int number = readings_;
+  auto read = std::make_shared<Document>(graph_nodes_of(document(), registry_));
+  auto whole = std::make_shared<std::atomic<bool>>(false);
+  reading_ = std::make_unique<Aside>(
+      [read, whole, open = modified_pages(), path = path(), folder = folder(),
+       &registry = registry_](const StopToken& stop) {
+        open_graphs_inside(*read, registry, path, folder, open, stop);
+        *whole = true;
+      },
+      [this, read, whole, number] {
+        QMetaObject::invokeMethod(
+            this,
+            [this, read, whole, number] {
+              if (number != readings_ || !reading_) return;
+              reading_.reset();
+              if (*whole) take_inside(*read);
+              check_structure();
+              emit reading_changed();
+              emit changed();
+              emit meaning_changed();
+            },
+            Qt::QueuedConnection);
+      });
+  if (reading_->wait(a_moment_ms)) {
+    reading_.reset();
+    ++readings_;
+    if (*whole) take_inside(*read);
+    return;
+  }
+  emit reading_changed();
+}
+
+// Nodes that came, went or were given another file since are read anew anyway.
+void Session::take_inside(const Document& read) {
+  for (const auto& [name, node] : read.nodes) {
+    const auto own = page_->document.nodes.find(name);
+    if (own != page_->document.nodes.end()) own->second.nested = node.nested;
+  }
 }
 
 }  // namespace kinegraph

@@ -23,6 +23,15 @@ QString problem_text(const Diagnostic& problem) {
   return text;
 }
 
+QString place_of(const Diagnostic& problem) {
+  QString where = QString::fromStdString(problem.node);
+  if (const std::string& part = problem.port.empty() ? problem.param : problem.port; !part.empty())
+    where += (where.isEmpty() ? "" : ".") + QString::fromStdString(part);
+  if (of_a_clip(problem) || problem.place.line <= 0) return where;
+  const QString line = QObject::tr("line %1").arg(problem.place.line);
+  return where.isEmpty() ? line : where + ", " + line;
+}
+
 QString advice_on(const Diagnostic& problem) {
   const QString hint = QString::fromStdString(problem.hint);
   if (!hint.isEmpty() || !of_a_clip(problem) || problem.severity != Severity::error) return hint;

@@ -8,6 +8,8 @@ namespace kinegraph {
 
 // What was found, with joint, frame, and the line of the file where they are known.
 QString problem_text(const Diagnostic& problem);
+// Where in a graph it is: "walk.speed, line 12". Empty where that isn't known.
+QString place_of(const Diagnostic& problem);
 // What to do about it: the hint that came with it; for a file that can't be read, how to go on.
 QString advice_on(const Diagnostic& problem);
 

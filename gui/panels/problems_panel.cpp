@@ -1,5 +1,7 @@
 #include "gui/panels/problems_panel.h"
 
+#include <QDir>
+#include <QFileInfo>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPainter>
@@ -92,6 +94,15 @@ void ProblemsPanel::fill() {
   list_->clear();
   int errors = 0, warnings = 0;
   std::set<std::string> said;
+  const auto add_row = [&](const Diagnostic& problem, const QString& where) {
+    auto* item = new QTreeWidgetItem({where, problem_text(problem), advice_on(problem)});
+    item->setIcon(0, mark(problem.severity == Severity::error     ? theme_->error
+                          : problem.severity == Severity::warning ? theme_->warning
+                                                                  : theme_->accent));
+    for (int column = 0; column < 3; ++column) item->setToolTip(column, item->text(column));
+    list_->addTopLevelItem(item);
+    return item;
+  };
   const auto add = [&](const Diagnostic& problem, const std::string& node) {
     // The structure's check and the run may say the same of one parameter in other words.
     const std::string about = node + "\n" + problem.code + "\n" + problem.param + problem.port + "\n";
@@ -101,14 +112,18 @@ void ProblemsPanel::fill() {
     QString where = QString::fromStdString(node);
     if (const std::string& part = problem.port.empty() ? problem.param : problem.port; !part.empty())
       where += "." + QString::fromStdString(part);
-    auto* item = new QTreeWidgetItem({where, problem_text(problem), advice_on(problem)});
-    item->setIcon(0, mark(problem.severity == Severity::error     ? theme_->error
-                          : problem.severity == Severity::warning ? theme_->warning
-                                                                  : theme_->accent));
-    item->setData(0, Qt::UserRole, QString::fromStdString(node));
-    for (int column = 0; column < 3; ++column) item->setToolTip(column, item->text(column));
-    list_->addTopLevelItem(item);
+    add_row(problem, where)->setData(0, Qt::UserRole, QString::fromStdString(node));
   };
+  // A file that was asked for and can't be opened comes first, named short.
+  const Session::Refused& refused = session_.refused_file();
+  const QString file = QFileInfo(refused.path).fileName();
+  for (const Diagnostic& problem : refused.problems) {
+    errors += problem.severity == Severity::error;
+    warnings += problem.severity == Severity::warning;
+    const QString where = place_of(problem);
+    add_row(problem, where.isEmpty() ? file : file + ": " + where)
+        ->setToolTip(0, QDir::toNativeSeparators(refused.path));
+  }
   for (const Severity severity : {Severity::error, Severity::warning, Severity::info}) {
     for (const Diagnostic& problem : session_.problems())
       if (problem.severity == severity) add(problem, problem.node);

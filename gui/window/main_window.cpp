@@ -110,6 +110,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   };
   connect(&session_, &Session::meaning_changed, this, later);
   connect(&session_, &Session::selection_changed, this, later);
+  connect(&session_, &Session::reading_changed, this, &MainWindow::update_progress);
   connect(&evaluation_, &Evaluation::busy_changed, this, &MainWindow::update_progress);
   // Once for all nodes that tell of themselves in one turn.
   connect(&evaluation_, &Evaluation::status_changed, this, [this] {
@@ -164,7 +165,7 @@ void MainWindow::set_theme(const Theme& theme) {
 
 void MainWindow::evaluate() {
   evaluation_due_ = false;
-  if (session_.is_read_only()) return;
+  if (session_.is_read_only() || session_.is_reading_inside()) return;  // once it is read this is due again
   EvaluationRequest request;
   request.document = session_.document();
   request.file = session_.title().toStdString();
@@ -206,8 +207,9 @@ void MainWindow::evaluate() {
 
 void MainWindow::update_progress() {
   progress_due_ = false;
-  const bool busy = evaluation_.is_busy();
+  const bool reads = session_.is_reading_inside(), busy = reads || evaluation_.is_busy();
   progress_->setVisible(busy);
+  progress_->setRange(0, reads ? 0 : 1000);
   actions_.at("cancel")->setEnabled(busy);
   double sum = 0;
   int running = 0, failed = 0, blocked = 0, incomplete = 0;
@@ -223,7 +225,9 @@ void MainWindow::update_progress() {
       name = QString::fromStdString(node);
     }
   progress_->setValue(running ? int(1000 * sum / running) : 0);
-  if (busy)
+  if (reads)
+    state_text_->setText(tr("reading the graph files inside"));
+  else if (busy)
     state_text_->setText(running == 1 ? tr("%1 is running").arg(name)
                          : running    ? tr("%1 nodes are running").arg(running)
                                       : tr("evaluating"));
@@ -250,7 +254,8 @@ void MainWindow::showEvent(QShowEvent* event) {
   if (!std::exchange(laid_out_, true)) QTimer::singleShot(0, this, &MainWindow::size_docks);
 }
 
-// A line takes Ctrl+Z for its own text, also where nothing was typed: then the last step of the graph is meant.
+// A line takes Ctrl+Z for its own text, also where nothing was typed: then the last step of the graph is
+// meant.
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride)
     if (const auto* line = qobject_cast<QLineEdit*>(watched)) {

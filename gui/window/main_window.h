@@ -84,6 +84,8 @@ class MainWindow : public QMainWindow {
   void size_docks();
   void go_to_dock(const QString& name);
 
+  bool open_page_of(const QString& path);  // false: it can't be, and the person was told, or cancelled it
+  void cancel_work();
   void new_graph();
   void choose_and_open();
   bool save();

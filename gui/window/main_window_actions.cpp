@@ -69,7 +69,7 @@ void MainWindow::make_actions() {
       {"open_inside", [this] { open_inside(session_.current()); }},
       {"arrange", [c] { c->arrange(); }},
       {"run", [this] { run_effects(); }},
-      {"cancel", [this] { evaluation_.cancel(); }},
+      {"cancel", [this] { cancel_work(); }},
       {"frame", [c] { c->frame_selected(); }},
       {"frame_all", [c] { c->frame_all(); }},
       {"zoom_in", [c] { c->zoom_at(QRectF(c->rect()).center(), 1); }},

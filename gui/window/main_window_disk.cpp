@@ -71,7 +71,11 @@ void MainWindow::file_changed_on_disk(const QString& path) {
     return;
   }
   const std::string now = bytes_of(path);
-  if (now.empty() || now == session_.text_on_disk() || now == session_.text()) return;
+  if (now.empty()) return;
+  if (now == session_.text_on_disk() || now == session_.text()) {
+    if (session_.refused_file().path == path) session_.forget_refused();  // it was mended
+    return;
+  }
   offer_merge(now);
 }
 
@@ -79,11 +83,14 @@ void MainWindow::offer_merge(const std::string& now) {
   const std::string path = session_.path().toStdString();
   const ReadResult theirs = read_document(now, path, registry_);
   if (has_error(theirs.problems)) {
+    session_.refuse(read_graph_text(now, session_.path(), registry_, session_.modified_pages(), StopToken()));
     notice_->say(tr("%1 changed on disk and can't be read there any more. What is open here is kept; saving "
                     "replaces what is on disk.")
-                     .arg(session_.title()));
+                     .arg(session_.title()),
+                 {{tr("Show problems"), [this] { show_dock("Problems"); }}});
     return;
   }
+  if (session_.refused_file().path == session_.path()) session_.forget_refused();
   const ReadResult base = read_document(session_.text_on_disk(), path, registry_);
   const Diff changed = diff(base.document, theirs.document);
   const QStringList what = changes_in_words(changed);

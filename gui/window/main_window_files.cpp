@@ -3,35 +3,40 @@
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QLabel>
 #include <QMenu>
 #include <QMessageBox>
 #include <QStatusBar>
 
 #include "graph/nested.h"
 #include "gui/canvas/canvas_edits.h"
+#include "gui/panels/problem_text.h"
 #include "gui/window/main_window.h"
 #include "gui/window/settings.h"
+#include "gui/window/wait_aside.h"
 
 namespace kinegraph {
 namespace {
 
 constexpr int recent_files = 12;
+constexpr std::size_t most_listed = 12;  // problems in a dialog
 
 QString graph_filter() {
   return QObject::tr("Kinegraph graphs (*.kg.json);;All files (*)");
 }
 
+// Where each is, what it is and what to do; the file they are in goes without saying.
 QString listed(const Diagnostics& problems) {
   QString text;
-  int shown = 0;
-  for (const Diagnostic& problem : problems) {
-    if (++shown > 12) {
-      text += QObject::tr("… and %1 more\n").arg(problems.size() - 12);
-      break;
-    }
-    text += QString::fromStdString(to_text(problem)) + "\n";
+  for (std::size_t i = 0; i < problems.size() && i < most_listed; ++i) {
+    const QString where = place_of(problems[i]), advice = advice_on(problems[i]);
+    text += (where.isEmpty() ? "" : where + ": ") + problem_text(problems[i]) +
+            (advice.isEmpty() ? "" : " – " + advice) + "\n";
   }
-  return text;
+  if (problems.size() > most_listed)
+    text +=
+        QObject::tr("… and %1 more; the Problems dock lists them all.").arg(problems.size() - most_listed);
+  return text.trimmed();
 }
 
 }  // namespace
@@ -44,18 +49,36 @@ void MainWindow::tell(const Diagnostics& problems, const QString& title) {
   }
   QMessageBox box(QMessageBox::NoIcon, tr("Kinegraph"), title, QMessageBox::Close, this);
   box.setInformativeText(listed(problems));
+  const QString file = QString::fromStdString(problems.front().file);
+  for (QLabel* label : box.findChildren<QLabel*>()) {
+    label->setTextFormat(Qt::PlainText);
+    label->setToolTip(QDir::toNativeSeparators(file));
+  }
   box.exec();
 }
 
-bool MainWindow::open(const QString& path) {
+bool MainWindow::open_page_of(const QString& path) {
+  if (session_.show_page_of(path)) return true;
+  const QString name = QFileInfo(path).fileName();
+  GraphFile file;
+  if (!wait_aside(options_.ask && isVisible() ? this : nullptr, tr("Opening %1").arg(name),
+                  [&, open = session_.modified_pages()](const StopToken& stop) {
+                    file = read_graph_file(path, registry_, open, stop);
+                  }))
+    return false;
   // In a page of its own, unless nothing was begun in the shown one.
   const bool untouched =
       session_.path().isEmpty() && session_.document().nodes.empty() && !session_.is_modified();
-  const Diagnostics problems = untouched ? session_.open(path) : session_.open_page(path);
-  if (has_error(problems)) {
-    tell(problems, tr("%1 can't be opened.").arg(QFileInfo(path).fileName()));
-    return false;
-  }
+  const Diagnostics problems =
+      untouched ? session_.open(std::move(file)) : session_.open_page(std::move(file));
+  if (!has_error(problems)) return true;
+  tell(problems, tr("%1 can't be opened.").arg(name));
+  show_dock("Problems");
+  return false;
+}
+
+bool MainWindow::open(const QString& path) {
+  if (!open_page_of(path)) return false;
   watch_files();
   remember_recent(session_.path());
   canvas_->frame_all();
@@ -168,6 +191,10 @@ void MainWindow::run_effects() {
     return;
   }
   if (!save_what_is_inside()) return;
+  if (session_.is_reading_inside()) {
+    notice_->say(tr("The graph files inside are still being read; run once they are there."), {}, 8);
+    return;
+  }
   EvaluationRequest request;
   request.document = session_.document();
   request.file = session_.title().toStdString();
@@ -185,6 +212,14 @@ void MainWindow::run_effects() {
     return;
   }
   evaluation_.request(std::move(request));
+}
+
+void MainWindow::cancel_work() {
+  evaluation_.cancel();
+  if (!session_.is_reading_inside()) return;
+  session_.stop_reading_inside();
+  notice_->say(tr("Reading the graph files inside was cancelled: what needs them can't run yet."),
+               {{tr("Read them"), [this] { session_.reopen_inside(); }}});
 }
 
 void MainWindow::ran_effects() {

@@ -58,8 +58,7 @@ void MainWindow::open_inside(const std::string& name) {
                  {}, 8);
     return;
   }
-  const Diagnostics problems = session_.open_page(path);
-  if (has_error(problems)) tell(problems, tr("%1 can't be opened.").arg(QFileInfo(path).fileName()));
+  if (!open_page_of(path)) return;
   canvas_->frame_all();
   canvas_->setFocus();
 }

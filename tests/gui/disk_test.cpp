@@ -356,6 +356,45 @@ TEST(EditorOnDisk, ADamagedGraphIsRefusedWithADialogAndWhatIsOpenStays) {
   EXPECT_EQ(editor.session().pages(), 1);
 }
 
+TEST(EditorOnDisk, ABrokenGraphIsToldWholeInTheDialogAndInTheProblemsDock) {
+  Editor editor(true);
+  const QString path = editor.folder.filePath("broken.kg.json");
+  QFile file(path);
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write(R"({"format": "kinegraph", "schema": 1, "nodes": {
+  "walk": {"type": "Gait", "params": {"speed": 1, "speed": 2}},
+  "soft": {"type": "Filter", "inputs": {"motion": "wolk.motion"}},
+  "feet": {"type": "Footskate", "inputs": {"motion": "walk.motoin"}}}})");
+  file.close();
+  QString told, tip;
+  editor.when_asked([&](QWidget& dialog) {
+    for (QLabel* label : dialog.findChildren<QLabel*>()) {
+      told += label->text() + "\n";
+      if (!label->toolTip().isEmpty()) tip = label->toolTip();
+    }
+    Editor::keys_to(dialog, {}, Qt::Key_Escape);
+  });
+  EXPECT_FALSE(editor.window.open(path));
+  for (const char* slip :
+       {"line 2", "\"speed\"", "soft.motion, line 3", "wolk", "feet.motion, line 4", "motoin"})
+    EXPECT_TRUE(told.contains(slip)) << slip << "\n" << told.toStdString();
+  EXPECT_FALSE(told.contains(editor.folder.path())) << told.toStdString();
+  EXPECT_EQ(tip, path);
+  auto* list = editor.window.findChild<QTreeWidget*>("problem_list");
+  const auto rows = [&] {
+    QStringList found;
+    for (int i = 0; i < list->topLevelItemCount(); ++i)
+      if (list->topLevelItem(i)->toolTip(0) == path) found << list->topLevelItem(i)->text(0);
+    return found;
+  };
+  EXPECT_TRUE(QTest::qWaitFor([&] { return rows().size() == 3; }, 5000)) << rows().join("; ").toStdString();
+  EXPECT_TRUE(list->isVisible());
+  EXPECT_TRUE(rows().contains("broken.kg.json: soft.motion, line 3")) << rows().join("; ").toStdString();
+  // Once a graph opens, they are of no interest any more.
+  ASSERT_TRUE(editor.window.open(graphs + "feet.kg.json"));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return rows().isEmpty(); }, 5000));
+}
+
 TEST(EditorOnDisk, RunAsksToSaveTheGraphInside) {
   Editor editor(true);
   QDir(editor.folder.path()).mkpath("pipelines");
