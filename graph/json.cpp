@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "graph/json_text.h"
+
 namespace kinegraph {
 
 Json::Json(const Json& other)
@@ -168,10 +170,25 @@ std::string shortest_number(double value) {
 }
 
 namespace {
-void put_quoted(std::string_view text, std::string& out) {
+// Asks at least once in each 64 KiB of text.
+class Asking {
+ public:
+  explicit Asking(Work* work = nullptr) : work_(work) {}
+  static constexpr std::size_t piece = std::size_t{64} << 10;
+  void at(std::size_t written) {
+    if (!work_ || written - asked_at_ < piece) return;
+    asked_at_ = written;
+    work_->check();
+  }
+
+ private:
+  Work* work_;
+  std::size_t asked_at_ = 0;
+};
+
+void put_escaped(std::string_view text, std::string& out) {
   static constexpr char hex[] = "0123456789abcdef";
   const auto is_plain = [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != '"' && c != '\\'; };
-  out += '"';
   for (std::size_t i = 0; i < text.size(); ++i) {
     const std::size_t start = i;
     while (i < text.size() && is_plain(text[i])) ++i;
@@ -206,6 +223,13 @@ void put_quoted(std::string_view text, std::string& out) {
         out += hex[static_cast<unsigned char>(c) & 15];
     }
   }
+}
+void put_quoted(std::string_view text, std::string& out, Asking asking = Asking()) {
+  out += '"';
+  for (std::size_t from = 0; from < text.size(); from += Asking::piece) {
+    put_escaped(text.substr(from, Asking::piece), out);
+    asking.at(out.size());
+  }
   out += '"';
 }
 }  // namespace
@@ -219,7 +243,7 @@ std::string in_quotes(std::string_view text) {
 
 namespace {
 
-void put_scalar(const Json& value, bool as_read, std::string& out) {
+void put_scalar(const Json& value, bool as_read, std::string& out, Asking& asking) {
   switch (value.kind()) {
     case Json::Kind::null:
       out += "null";
@@ -231,17 +255,18 @@ void put_scalar(const Json& value, bool as_read, std::string& out) {
       out += as_read && !value.spelling().empty() ? value.spelling() : shortest_number(value.number());
       break;
     default:
-      put_quoted(value.string(), out);
+      put_quoted(value.string(), out, asking);
   }
 }
 
-void put_compact(const Json& value, bool as_read, std::string& out) {
+void put_compact(const Json& value, bool as_read, std::string& out, Asking& asking) {
+  asking.at(out.size());
   const char* separator = "";
   if (value.is_array()) {
     out += '[';
     for (const Json& element : value.array()) {
       out += separator;
-      put_compact(element, as_read, out);
+      put_compact(element, as_read, out, asking);
       separator = ", ";
     }
     out += ']';
@@ -249,23 +274,23 @@ void put_compact(const Json& value, bool as_read, std::string& out) {
     out += '{';
     for (const auto& [key, member] : value.object()) {
       out += separator + in_quotes(key) + ": ";
-      put_compact(member, as_read, out);
+      put_compact(member, as_read, out, asking);
       separator = ", ";
     }
     out += '}';
   } else {
-    put_scalar(value, as_read, out);
+    put_scalar(value, as_read, out, asking);
   }
 }
 
-void put_indented(const Json& value, std::size_t depth, std::string& out) {
+void put_indented(const Json& value, std::size_t depth, std::string& out, Asking& asking) {
   const std::string margin(2 * depth, ' ');
   const char* separator = "\n";
   if (value.is_array() && !value.array().empty()) {
     out += '[';
     for (const Json& element : value.array()) {
       out += separator + margin + "  ";
-      put_indented(element, depth + 1, out);
+      put_indented(element, depth + 1, out, asking);
       separator = ",\n";
     }
     out += '\n' + margin + ']';
@@ -273,12 +298,12 @@ void put_indented(const Json& value, std::size_t depth, std::string& out) {
     out += '{';
     for (const auto& [key, member] : value.object()) {
       out += separator + margin + "  " + in_quotes(key) + ": ";
-      put_indented(member, depth + 1, out);
+      put_indented(member, depth + 1, out, asking);
       separator = ",\n";
     }
     out += '\n' + margin + '}';
   } else {
-    put_compact(value, false, out);
+    put_compact(value, false, out, asking);
   }
 }
 
@@ -286,14 +311,40 @@ void put_indented(const Json& value, std::size_t depth, std::string& out) {
 
 std::string compact(const Json& value, bool as_read) {
   std::string out;
-  put_compact(value, as_read, out);
+  Asking nobody;
+  put_compact(value, as_read, out, nobody);
   return out;
 }
 
 std::string indented(const Json& value) {
   std::string out;
-  put_indented(value, 0, out);
+  Asking nobody;
+  put_indented(value, 0, out, nobody);
   return out + '\n';
+}
+
+namespace {
+
+// At most so many bytes but for escapes: so that a large text isn't moved as it grows, which nothing can
+// stop.
+std::size_t room_for(const Json& value, std::size_t depth) {
+  const std::size_t margin = 2 * depth + 4;
+  std::size_t room = value.is_string() ? value.string().size() + margin : 26 + margin;
+  if (value.is_array())
+    for (const Json& element : value.array()) room += room_for(element, depth + 1);
+  if (value.is_object())
+    for (const auto& [key, member] : value.object()) room += key.size() + 4 + room_for(member, depth + 1);
+  return room;
+}
+
+}  // namespace
+
+std::string indented(const Json& value, Work& work) {
+  std::string out;
+  out.reserve(room_for(value, 0));
+  Asking asking(&work);
+  put_indented(value, 0, out, asking);
+  return out += '\n';
 }
 
 }  // namespace kinegraph

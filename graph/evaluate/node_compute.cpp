@@ -70,7 +70,7 @@ void NodeCompute::write_file(std::string_view param, std::string_view bytes, std
   if (!companion.empty()) path = (std::filesystem::path(file).parent_path() / companion).string();
   try {
     work().check();
-    staged_.add(world_.rules.take(world_.node.name, path, file), bytes);
+    staged_.add(world_.rules.take(world_.node.name, path, file), bytes, [this] { work().check(); });
   } catch (const Failure& failure) {
     throw Failure(Diagnostic(failure.diagnostic()).at_param(std::string(param)));
   }

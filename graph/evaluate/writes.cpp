@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -56,6 +57,17 @@ int open_folder(const std::string& folder, const std::string& path) {
   }
   return at;
 }
+
+constexpr std::size_t write_piece = std::size_t{1} << 20;
+
+// Closes what is open still.
+struct Descriptor {
+  mutable int number;
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
+  }
+  int close() const { return ::close(std::exchange(number, -1)) == 0 ? 0 : errno; }
+};
 
 }  // namespace
 
@@ -123,7 +135,7 @@ StagedFiles::~StagedFiles() {
   }
 }
 
-void StagedFiles::add(const std::string& path, std::string_view bytes) {
+void StagedFiles::add(const std::string& path, std::string_view bytes, const std::function<void()>& check) {
   static std::atomic<unsigned> counter{0};
   const fs::path whole(path);
   Staged file;
@@ -133,7 +145,7 @@ void StagedFiles::add(const std::string& path, std::string_view bytes) {
   if (file.name.empty() || file.name == "." || file.name == "..") throw cannot_write(path, EISDIR);
   file.aside = "." + file.name.substr(0, 200) + "." + std::to_string(::getpid()) + "-" +
                std::to_string(counter++) + ".tmp";
-  file.content = std::string(bytes);
+  file.content.reserve(bytes.size());
   file.folder = open_folder(whole.parent_path().string(), path);
 
   struct stat old {};
@@ -148,18 +160,18 @@ void StagedFiles::add(const std::string& path, std::string_view bytes) {
     throw cannot_write(path, why);
   }
   if (replaces && S_ISREG(old.st_mode)) static_cast<void>(::fchmod(to, old.st_mode & 07777));
-  int why = 0;
-  for (std::size_t done = 0; done < bytes.size() && !why;) {
-    const auto put = ::write(to, bytes.data() + done, bytes.size() - done);
-    if (put >= 0) {
-      done += static_cast<std::size_t>(put);
-    } else if (errno != EINTR) {
-      why = errno;
-    }
-  }
-  if (::close(to) != 0 && !why) why = errno;
   files_.push_back(std::move(file));  // from here on the destructor removes it
-  if (why) throw cannot_write(path, why);
+  std::string& content = files_.back().content;
+  const Descriptor open{to};
+  for (std::size_t done = 0; done < bytes.size();) {
+    check();
+    const auto put = ::write(to, bytes.data() + done, std::min(bytes.size() - done, write_piece));
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) throw cannot_write(path, errno);
+    content.append(bytes, done, static_cast<std::size_t>(put));
+    done += static_cast<std::size_t>(put);
+  }
+  if (const int why = open.close()) throw cannot_write(path, why);
 }
 
 void StagedFiles::put_in_place() {

@@ -1,6 +1,7 @@
 // Writing files: where a run may write, that no two nodes write one file, and that a file is there whole or
 // not at all.
 #pragma once
+#include <functional>
 #include <map>
 #include <mutex>
 #include <set>
@@ -46,8 +47,9 @@ class StagedFiles {
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  // `file` is what WriteRules::take gave. Makes missing folders.
-  void add(const std::string& file, std::string_view bytes);
+  // `file` is what WriteRules::take gave. Makes missing folders. `check` is called once a megabyte, and
+  // throws to stop.
+  void add(const std::string& file, std::string_view bytes, const std::function<void()>& check);
   void put_in_place();
   struct Staged {
     int folder;         // open descriptor

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t largest_rescued = std::size_t{4} << 20;  // bytes
 constexpr int most_guesses = 64;
+constexpr std::size_t asked_each = std::size_t{64} << 10;  // bytes
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -43,7 +44,7 @@ bool is_beyond(std::string_view token) {
 // One walk over the text, straight into the values.
 class Parser {
  public:
-  explicit Parser(std::string_view text) : text_(text), whole_(text) {}
+  explicit Parser(std::string_view text, Work* work = nullptr) : text_(text), whole_(text), work_(work) {}
   // Of a text with mends: `mended` is mended(text, mends).
   Parser(std::string_view text, std::span<const Mend> mends, std::string_view mended)
       : text_(mended), whole_(text), mends_(mends) {}
@@ -107,7 +108,14 @@ class Parser {
     scalar_end_ = token_end_ = at_;
   }
 
+  void ask() {
+    if (!work_ || at_ - asked_at_ < asked_each) return;
+    asked_at_ = at_;
+    work_->check();
+  }
+
   bool value(Json& into) {
+    ask();
     skip_space();
     const Place here = place();
     const Place key_place = into.key_place;
@@ -249,13 +257,18 @@ class Parser {
     const std::size_t start = at_, line_start = line_start_;
     std::size_t i = at_ + 1;
     for (std::size_t plain = i;; plain = i) {
-      while (i < text_.size() && text_[i] != '"' && text_[i] != '\\') {
+      const std::size_t end = std::min(text_.size(), i + asked_each);
+      while (i < end && text_[i] != '"' && text_[i] != '\\') {
         const auto c = static_cast<unsigned char>(text_[i]);
         if (c < 0x20) break;
         line_start_ += (c & 0xC0) == 0x80;  // columns count characters
         ++i;
       }
       out.append(text_, plain, i - plain);
+      if (i == end && end < text_.size()) {
+        if (work_) work_->check();
+        continue;
+      }
       if (i < text_.size() && text_[i] == '"') break;
       if (i >= text_.size() || text_[i] != '\\' || !escape(i, out)) {
         at_ = start;
@@ -313,6 +326,8 @@ class Parser {
   std::string_view text_, whole_;  // as it is read, and as it stands
   std::span<const Mend> mends_;
   JsonCursor cursor_{whole_, mends_};
+  Work* work_ = nullptr;
+  std::size_t asked_at_ = 0;
   Diagnostics duplicate_keys_;
   std::optional<JsonMistake> mistake_;
   std::size_t at_ = 0;
@@ -340,12 +355,12 @@ struct Reading {
 
 // Reads on past what can only be meant in one way, if it may.
 Reading read_with(std::vector<Mend> mends, std::string_view text, bool past,
-                  std::size_t budget = largest_json) {
+                  std::size_t budget = largest_json, Work* work = nullptr) {
   Reading reading;
   Place last;
   for (std::size_t read = 0;;) {
     const std::string as_meant = mends.empty() ? "" : mended(text, mends);
-    Parser parser = mends.empty() ? Parser(text) : Parser(text, mends, as_meant);
+    Parser parser = mends.empty() ? Parser(text, work) : Parser(text, mends, as_meant);
     reading.whole = parser.whole(reading.json);
     const auto& mistake = parser.mistake();
     if (mistake && !is_same(mistake->problem.place, last)) reading.problems.push_back(mistake->problem);
@@ -466,7 +481,7 @@ std::optional<Reading> read_rescued(std::string_view text) {
 
 // The value, or null where the reading stopped: at the first problem, or, if it may go `past` them, where
 // even guessing what was meant leads no further.
-Json parse(std::string_view text, bool past, Diagnostics& found, bool& in_doubt) {
+Json parse(std::string_view text, bool past, Diagnostics& found, bool& in_doubt, Work* work) {
   const auto tell = [&](Diagnostic diagnostic, Place place) {
     diagnostic.place = place;
     found.push_back(std::move(diagnostic));
@@ -495,7 +510,7 @@ Json parse(std::string_view text, bool past, Diagnostics& found, bool& in_doubt)
     text = valid;
   }
 
-  Reading first = read_with({}, text, past);
+  Reading first = read_with({}, text, past, largest_json, work);
   const bool may_be_rescued =
       past && !first.whole && text.size() <= largest_rescued && !first.stopped_by_depth;
   if (may_be_rescued) {
@@ -508,9 +523,10 @@ Json parse(std::string_view text, bool past, Diagnostics& found, bool& in_doubt)
   return first.whole ? std::move(first.json) : Json();
 }
 
-Json parse(std::string_view text, const std::string& file, bool past, Diagnostics& problems, bool& in_doubt) {
+Json parse(std::string_view text, const std::string& file, bool past, Diagnostics& problems, bool& in_doubt,
+           Work* work = nullptr) {
   Diagnostics found;
-  Json json = parse(text, past, found, in_doubt);
+  Json json = parse(text, past, found, in_doubt, work);
   std::stable_sort(found.begin(), found.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
   });
@@ -528,9 +544,9 @@ Json parse(std::string_view text, const std::string& file, bool past, Diagnostic
 
 }  // namespace
 
-Json parse_json(std::string_view text, const std::string& file, Diagnostics& problems) {
+Json parse_json(std::string_view text, const std::string& file, Diagnostics& problems, Work* work) {
   bool in_doubt = false;
-  return parse(text, file, false, problems, in_doubt);
+  return parse(text, file, false, problems, in_doubt, work);
 }
 
 ReadPast parse_json_past_mistakes(std::string_view text, const std::string& file, Diagnostics& problems) {

@@ -5,6 +5,7 @@
 
 #include "graph/diagnostic.h"
 #include "graph/json.h"
+#include "graph/work.h"
 
 namespace kinegraph {
 
@@ -17,7 +18,8 @@ inline constexpr int deepest_json = 64;                             // levels of
 // conflict markers
 // ("conflict-markers"). Problems go to `problems`, each with line and column (both from 1, columns in
 // characters); on one that stops the reading the result is null. `file` is how messages name the text.
-Json parse_json(std::string_view text, const std::string& file, Diagnostics& problems);
+// `work` is asked at least once in each 64 KiB.
+Json parse_json(std::string_view text, const std::string& file, Diagnostics& problems, Work* work = nullptr);
 
 // What was read of a text that may hold mistakes. With an error among its problems it is only for judging.
 struct ReadPast {

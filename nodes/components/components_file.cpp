@@ -7,16 +7,20 @@
 namespace kinegraph {
 namespace {
 
-Json matrix_json(const Rows& rows) {
+Json matrix_json(const Rows& rows, Work& work) {
   Json::Array out;
-  for (std::size_t i = 0; i < rows.rows; ++i) out.push_back(json_list(rows.row(i), rows.columns));
+  for (std::size_t i = 0; i < rows.rows; ++i) {
+    work.check();
+    out.push_back(json_list(rows.row(i), rows.columns));
+  }
   return out;
 }
-Rows matrix_of(const Json& json, std::size_t rows, std::size_t columns) {
+Rows matrix_of(const Json& json, std::size_t rows, std::size_t columns, Work& work) {
   if (!json.is_array() || json.array().size() != rows)
     bad_analysis(json, "the matrix has another number of rows");
   Rows out(rows, columns);
   for (std::size_t i = 0; i < rows; ++i) {
+    work.check();
     const auto row = numbers_of(json.array()[i], columns);
     std::copy(row.begin(), row.end(), out.row(i));
   }
@@ -94,19 +98,19 @@ ChannelSpace space_of(const Json& json) {
   return space;
 }
 
-void read_segments(const Json& json, Components& components) {
+void read_segments(const Json& json, Components& components, Work& work) {
   std::size_t at = 0;
   for (const Json& entry : list_member(json, "segments")) {
     ComponentSegment segment;
     const Json& clip = member(entry, "clip");
     if (components.space.of_motions)
-      segment.motion = std::make_shared<const Motion>(motion_of_json(clip));
+      segment.motion = std::make_shared<const Motion>(motion_of_json(clip, work));
     else
-      segment.points = std::make_shared<const Points>(points_of_json(clip));
+      segment.points = std::make_shared<const Points>(points_of_json(clip, work));
     segment.start = at;
     segment.end = at += segment.motion ? segment.motion->frames() : segment.points->frames;
     if (entry.find("added"))
-      segment.added = matrix_of(member(entry, "added"), components.space.channels(), segment.frames());
+      segment.added = matrix_of(member(entry, "added"), components.space.channels(), segment.frames(), work);
     components.segments.push_back(std::move(segment));
   }
   if (components.segments.empty()) bad_analysis(member(json, "segments"), "there is at least one segment");
@@ -114,12 +118,13 @@ void read_segments(const Json& json, Components& components) {
 
 }  // namespace
 
-Json components_json(const Value& value) {
+Json components_json(const Value& value, Work& work) {
   const auto& components = dynamic_cast<const Components&>(value);
   Json::Array segments, groups, unique;
   for (const ComponentSegment& segment : components.segments) {
-    Json::Object entry{{"clip", segment.motion ? clip_json(*segment.motion) : clip_json(*segment.points)}};
-    if (!segment.added.data.empty()) entry["added"] = matrix_json(segment.added);
+    Json::Object entry{
+        {"clip", segment.motion ? clip_json(*segment.motion, work) : clip_json(*segment.points, work)}};
+    if (!segment.added.data.empty()) entry["added"] = matrix_json(segment.added, work);
     segments.push_back(std::move(entry));
   }
   for (const ComponentGroup& group : components.groups) {
@@ -131,9 +136,9 @@ Json components_json(const Value& value) {
   return Json::Object{{"space", space_json(components.space)},
                       {"fps", components.fps},
                       {"mean", json_list(components.mean.data(), components.mean.size())},
-                      {"mixing", matrix_json(components.mixing)},
-                      {"unmixing", matrix_json(components.unmixing)},
-                      {"signals", matrix_json(components.signals)},
+                      {"mixing", matrix_json(components.mixing, work)},
+                      {"unmixing", matrix_json(components.unmixing, work)},
+                      {"signals", matrix_json(components.signals, work)},
                       {"shares", json_list(components.shares.data(), components.shares.size())},
                       {"segments", std::move(segments)},
                       {"groups", std::move(groups)},
@@ -147,17 +152,17 @@ Json components_json(const Value& value) {
                                                    {"unique", std::move(unique)}}}};
 }
 
-ValuePtr components_of_json(const Json& json) {
+ValuePtr components_of_json(const Json& json, Work& work) {
   auto out = std::make_shared<Components>();
   out->space = space_of(member(json, "space"));
   out->fps = number_member(json, "fps");
   const std::size_t channels = out->space.channels(), count = list_member(json, "signals").size();
   out->mean = numbers_of(member(json, "mean"), channels);
-  out->mixing = matrix_of(member(json, "mixing"), channels, count);
-  out->unmixing = matrix_of(member(json, "unmixing"), count, channels);
+  out->mixing = matrix_of(member(json, "mixing"), channels, count, work);
+  out->unmixing = matrix_of(member(json, "unmixing"), count, channels, work);
   out->shares = numbers_of(member(json, "shares"), count);
-  read_segments(json, *out);
-  out->signals = matrix_of(member(json, "signals"), count, out->segments.back().end);
+  read_segments(json, *out, work);
+  out->signals = matrix_of(member(json, "signals"), count, out->segments.back().end, work);
   for (const Json& entry : list_member(json, "groups")) {
     ComponentGroup group{text_member(entry, "name"), {}};
     for (const Json& term : list_member(entry, "terms")) {
@@ -185,7 +190,7 @@ ValuePtr components_of_json(const Json& json) {
   return out;
 }
 
-std::string components_table(const Value& value) {
+std::string components_table(const Value& value, Work& work) {
   const auto& components = dynamic_cast<const Components&>(value);
   std::string out = "frame,segment";
   for (std::size_t i = 0; i < components.count(); ++i) out += ",u" + std::to_string(i + 1);
@@ -193,6 +198,7 @@ std::string components_table(const Value& value) {
   for (std::size_t s = 0; s < components.segments.size(); ++s) {
     const ComponentSegment& segment = components.segments[s];
     for (std::size_t t = segment.start; t < segment.end; ++t) {
+      if (t % 256 == 0) work.check();
       out += std::to_string(t - segment.start) + ',' + std::to_string(s);
       for (std::size_t i = 0; i < components.count(); ++i) {
         out += ',';

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "graph/file/read.h"
+#include "graph/json_text.h"
 #include "nodes/files/json_fields.h"
 
 namespace kinegraph {
@@ -32,9 +33,9 @@ constexpr std::string_view prefix = "kinegraph-";
 
 }  // namespace
 
-AnalysisFile read_analysis(std::string_view text) {
+AnalysisFile read_analysis(std::string_view text, Work& work) {
   Diagnostics problems;
-  const Json json = parse_json(text, "", problems);
+  const Json json = parse_json(text, "", problems, &work);
   for (const Diagnostic& problem : problems)
     if (problem.severity == Severity::error) throw Failure(problem);
   auto refuse = [&](const char* code, std::string what, std::string hint) {
@@ -60,16 +61,14 @@ AnalysisFile read_analysis(std::string_view text) {
   if (schema > 1)
     refuse("newer-schema", fmt::format("the file has schema {:g}, this program reads 1", schema),
            "use a newer Kinegraph");
-  return {kind, kind->from_json(json)};
+  return {kind, kind->from_json(json, work)};
 }
 
-std::string write_analysis(const AnalysisKind& kind, const Value& value) {
-  Json json = kind.to_json(value);
+std::string write_analysis(const AnalysisKind& kind, const Value& value, Work& work) {
+  Json json = kind.to_json(value, work);
   json.object()["format"] = std::string(prefix) + std::string(kind.port);
   json.object()["schema"] = 1;
-  std::string text = indented(json);
-  if (text.empty() || text.back() != '\n') text += '\n';
-  return text;
+  return indented(json, work);
 }
 
 }  // namespace kinegraph

@@ -130,7 +130,7 @@ Points read_c3d(std::string_view all, const ReadOptions& options, Work& work) {
     throw Failure(error("bad-rate", fmt::format("the file's frame rate is {:g}", rate)));
   Points points(labels_of(file, layout.points, work), plain(rate), layout.frames);
   for (std::size_t t = 0; t < layout.frames; ++t) {
-    if (t % 64 == 0) work.check();
+    if (t % 16 == 0) work.check();
     std::size_t at = layout.start + t * layout.frame_bytes;
     for (int label = 0; label < static_cast<int>(layout.points); ++label) {
       Vec3 place;

@@ -136,7 +136,7 @@ std::string write_c3d(const Points& points, const WriteOptions& options, Work& w
   out.pad_block();
   out.bytes += section.bytes;
   for (std::size_t t = 0; t < points.frames; ++t) {
-    if (t % 64 == 0) work.check();
+    if (t % 16 == 0) work.check();
     for (int label = 0; label < static_cast<int>(points.labels.size()); ++label) {
       const bool missing = points.is_missing(label, t);
       const Vec3 place = missing ? Vec3{} : in_file(points.track(label)[t], unit, points.up);

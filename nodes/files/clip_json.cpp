@@ -10,15 +10,38 @@ namespace {
 
 constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-Json series_json(std::span<const double> values) {
-  Encoder bytes;
-  for (double value : values) bytes.f64(value);
-  return Json(base64(bytes.take()));
+constexpr std::size_t block = 3 << 12;  // numbers and bytes that `work` is asked after
+
+Json series_json(std::span<const double> values, Work& work) {
+  std::string text;
+  text.reserve((8 * values.size() + 2) / 3 * 4);
+  for (std::size_t from = 0; from < values.size(); from += block) {
+    work.check();
+    Encoder bytes;
+    for (double value : values.subspan(from, std::min(block, values.size() - from))) bytes.f64(value);
+    text += base64(bytes.take());  // no padding but in the last
+  }
+  return Json(std::move(text));
 }
-void read_series(const Json& json, std::span<double> values) {
-  std::string bytes;
-  if (!json.is_string() || !from_base64(json.string(), bytes))
-    bad_analysis(json, "a time series is a base64 text");
+std::string bytes_of_series(const Json& json, Work& work) {
+  std::string bytes, piece;
+  bool good = json.is_string();
+  std::string_view text;
+  if (good) text = json.string();
+  bytes.reserve(text.size() / 4 * 3);
+  constexpr std::size_t letters = 4 * block;
+  for (std::size_t from = 0; good && from < text.size(); from += letters) {
+    work.check();
+    const std::string_view part = text.substr(from, letters);
+    const bool last = from + letters >= text.size();
+    good = from_base64(part, piece) && (last || !part.ends_with('='));
+    bytes += piece;
+  }
+  if (!good) bad_analysis(json, "a time series is a base64 text");
+  return bytes;
+}
+void read_series(const Json& json, std::span<double> values, Work& work) {
+  const std::string bytes = bytes_of_series(json, work);
   if (bytes.size() != 8 * values.size()) bad_analysis(json, "a time series has another length than its clip");
   Decoder in(bytes);
   for (double& value : values) {
@@ -26,9 +49,9 @@ void read_series(const Json& json, std::span<double> values) {
     if (!std::isfinite(value)) bad_analysis(json, "a time series holds a number that is not finite");
   }
 }
-std::vector<double> any_series(const Json& json) {
+std::vector<double> any_series(const Json& json, Work& work) {
   std::vector<double> values(json.is_string() ? json.string().size() / 4 * 3 / 8 : 0);
-  read_series(json, values);
+  read_series(json, values, work);
   return values;
 }
 
@@ -49,7 +72,7 @@ const Json& text(const Json& json) {
   return json;
 }
 
-Json source_json(const SourceFacts& source) {
+Json source_json(const SourceFacts& source, Work& work) {
   Json::Array bvh, ends;
   for (const BvhJoint& joint : source.bvh) {
     Json::Array channels(joint.channels.begin(), joint.channels.end());
@@ -61,13 +84,13 @@ Json source_json(const SourceFacts& source) {
                    {"bvh", std::move(bvh)},           {"bvh_ends", std::move(ends)},
                    {"frame_time", source.frame_time}, {"frame_time_text", source.frame_time_text}};
   if (source.read) {
-    out["read"] = series_json(*source.read);
+    out["read"] = series_json(*source.read, work);
     out["read_frames"] = source.read_frames;
     out["first_read"] = source.first_read;
   }
   return out;
 }
-SourceFacts source_of_json(const Json& json) {
+SourceFacts source_of_json(const Json& json, Work& work) {
   SourceFacts source;
   source.format = text_member(json, "format");
   source.unit = number_member(json, "unit");
@@ -86,7 +109,7 @@ SourceFacts source_of_json(const Json& json) {
   source.frame_time = number_member(json, "frame_time");
   source.frame_time_text = text_member(json, "frame_time_text");
   if (json.find("read")) {
-    auto read = any_series(member(json, "read"));
+    auto read = any_series(member(json, "read"), work);
     source.read_frames = count_member(json, "read_frames");
     source.first_read = count_member(json, "first_read");
     if (channels == 0 || read.size() % channels != 0 || source.first_read > read.size() / channels ||
@@ -172,26 +195,27 @@ Skeleton skeleton_of_json(const Json& json) {
   return out;
 }
 
-Json clip_json(const Motion& motion) {
+Json clip_json(const Motion& motion, Work& work) {
   Json::Array tracks;
   for (int j = 0; j < motion.joints(); ++j) {
     const auto q = motion.rotation(j);
-    Json::Object track{
-        {"rotation", Json::Array{series_json(q.x), series_json(q.y), series_json(q.z), series_json(q.w)}}};
+    Json::Object track{{"rotation", Json::Array{series_json(q.x, work), series_json(q.y, work),
+                                                series_json(q.z, work), series_json(q.w, work)}}};
     if (motion.translates(j)) {
       const auto p = motion.translation(j);
-      track["translation"] = Json::Array{series_json(p.x), series_json(p.y), series_json(p.z)};
+      track["translation"] =
+          Json::Array{series_json(p.x, work), series_json(p.y, work), series_json(p.z, work)};
     }
     tracks.push_back(std::move(track));
   }
   return Json::Object{{"skeleton", skeleton_json(motion.skeleton())},
-                      {"source", source_json(motion.source())},
+                      {"source", source_json(motion.source(), work)},
                       {"fps", motion.fps()},
                       {"frames", motion.frames()},
                       {"tracks", std::move(tracks)}};
 }
 
-Motion motion_of_json(const Json& json) {
+Motion motion_of_json(const Json& json, Work& work) {
   auto skeleton = std::make_shared<const Skeleton>(skeleton_of_json(member(json, "skeleton")));
   const auto& tracks = list_member(json, "tracks");
   if (tracks.size() != skeleton->joints.size())
@@ -201,9 +225,9 @@ Motion motion_of_json(const Json& json) {
   // The length of a series tells the frames, so that a damaged number allocates nothing.
   const auto& first = list_member(tracks.front(), "rotation");
   const std::uint64_t frames = count_member(json, "frames");
-  if (first.empty() || any_series(first[0]).size() != frames)
+  if (first.empty() || any_series(first[0], work).size() != frames)
     bad_analysis(member(json, "frames"), "the series have another length");
-  auto source = source_of_json(member(json, "source"));
+  auto source = source_of_json(member(json, "source"), work);
   if (!source.bvh.empty() && source.bvh.size() != skeleton->joints.size())
     bad_analysis(member(json, "source"), "the source has other joints");
   Motion motion(skeleton, std::make_shared<const SourceFacts>(std::move(source)), number_member(json, "fps"),
@@ -214,7 +238,7 @@ Motion motion_of_json(const Json& json) {
       const auto& list = list_member(track, key);
       if (list.size() != axes.size()) bad_analysis(member(track, key), "a track has another number of axes");
       std::size_t i = 0;
-      for (const std::span<double>& axis : axes) read_series(list[i++], axis);
+      for (const std::span<double>& axis : axes) read_series(list[i++], axis, work);
     };
     const auto q = motion.rotation(j);
     read("rotation", {q.x, q.y, q.z, q.w});
@@ -225,7 +249,7 @@ Motion motion_of_json(const Json& json) {
   return motion;
 }
 
-Json clip_json(const Points& points) {
+Json clip_json(const Points& points, Work& work) {
   Json::Array links, labels(points.labels.begin(), points.labels.end()), missing;
   for (const auto& [a, b] : points.links) links.push_back(Json::Array{a, b});
   for (std::size_t i = 0; i < points.missing.size(); ++i)
@@ -238,13 +262,13 @@ Json clip_json(const Points& points) {
                       {"unit", points.unit},
                       {"unit_name", points.unit_name},
                       {"up", name_of(points.up)},
-                      {"positions", series_json(points.data)}};
+                      {"positions", series_json(points.data, work)}};
 }
 
-Points points_of_json(const Json& json) {
+Points points_of_json(const Json& json, Work& work) {
   std::vector<std::string> labels;
   for (const Json& label : list_member(json, "labels")) labels.push_back(text(label).string());
-  std::vector<double> data = any_series(member(json, "positions"));
+  std::vector<double> data = any_series(member(json, "positions"), work);
   const std::uint64_t frames = count_member(json, "frames");
   if (labels.empty() ? !data.empty()
                      : data.size() % (3 * labels.size()) != 0 || data.size() / (3 * labels.size()) != frames)

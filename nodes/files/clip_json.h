@@ -8,17 +8,18 @@
 #include <vector>
 
 #include "graph/json.h"
+#include "graph/work.h"
 #include "nodes/motion/motion.h"
 #include "nodes/motion/points.h"
 
 namespace kinegraph {
 
-Json clip_json(const Motion& motion);
-Json clip_json(const Points& points);
+Json clip_json(const Motion& motion, Work& work);
+Json clip_json(const Points& points, Work& work);
 Json skeleton_json(const Skeleton& skeleton);
 // Throw Failure ("bad-analysis") with line and column.
-Motion motion_of_json(const Json& json);
-Points points_of_json(const Json& json);
+Motion motion_of_json(const Json& json, Work& work);
+Points points_of_json(const Json& json, Work& work);
 Skeleton skeleton_of_json(const Json& json);
 
 std::string base64(std::string_view bytes);

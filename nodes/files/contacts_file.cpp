@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-Json contacts_json(const Value& value) {
+Json contacts_json(const Value& value, Work&) {
   const auto& contacts = dynamic_cast<const Contacts&>(value);
   Json::Array points;
   for (const FootPoint& point : contacts.points) {
@@ -35,7 +35,7 @@ Json contacts_json(const Value& value) {
   return out;
 }
 
-ValuePtr contacts_of_json(const Json& json) {
+ValuePtr contacts_of_json(const Json& json, Work&) {
   auto contacts = std::make_shared<Contacts>();
   contacts->fps = number_member(json, "fps");
   if (!(contacts->fps > 0)) bad_analysis(member(json, "fps"), "\"fps\" must be over 0");
@@ -72,12 +72,13 @@ ValuePtr contacts_of_json(const Json& json) {
   return contacts;
 }
 
-std::string contacts_table(const Value& value) {
+std::string contacts_table(const Value& value, Work& work) {
   const auto& contacts = dynamic_cast<const Contacts&>(value);
   std::string out = "frame,time";
   for (const FootPoint& point : contacts.points) out += ',' + csv_cell(point.foot + "." + point.part);
   out += '\n';
   for (std::size_t t = 0; t < contacts.frames; ++t) {
+    if (t % 1024 == 0) work.check();
     out += std::to_string(t) + ',';
     append_shortest(out, static_cast<double>(t) / contacts.fps);
     for (const FootPoint& point : contacts.points) out += point.planted[t] ? ",1" : ",0";

@@ -63,8 +63,8 @@ std::vector<std::string> acclaim_companions(const std::string& path, const ReadO
   return {asf_of(path, options, files)};
 }
 
-MotionFile read_json_file(const FileToRead& file, Work&) {
-  AnalysisFile analysis = read_analysis(file.bytes);
+MotionFile read_json_file(const FileToRead& file, Work& work) {
+  AnalysisFile analysis = read_analysis(file.bytes, work);
   MotionFile result;
   result.contents.push_back({std::string(analysis.kind->port), analysis.value});
   return result;
@@ -74,9 +74,9 @@ EncodedFile write_bvh_file(const FileToWrite& file, Work& work) {
   return {write_bvh(dynamic_cast<const Motion&>(*file.contents.front().value), file.options, work), {}};
 }
 
-EncodedFile write_json_file(const FileToWrite& file, Work&) {
+EncodedFile write_json_file(const FileToWrite& file, Work& work) {
   const FileContent& content = file.contents.front();
-  return {write_analysis(*kind_of_port(content.port), *content.value), {}};
+  return {write_analysis(*kind_of_port(content.port), *content.value, work), {}};
 }
 
 MotionFile with_points(Points points) {
@@ -157,7 +157,7 @@ EncodedFile write_gltf_file(const FileToWrite& file, Work& work) {
 EncodedFile write_csv_file(const FileToWrite& file, Work& work) {
   const FileContent& content = file.contents.front();
   if (content.port == "points") return {write_points_table(points_of(file), work), {}};
-  return {kind_of_port(content.port)->to_csv(*content.value), {}};
+  return {kind_of_port(content.port)->to_csv(*content.value, work), {}};
 }
 
 std::vector<std::string_view> analysis_ports() {

@@ -5,7 +5,7 @@
 
 namespace kinegraph {
 
-Json metrics_json(const Value& value) {
+Json metrics_json(const Value& value, Work&) {
   Json::Array all;
   for (const Metric& metric : dynamic_cast<const Metrics&>(value).all) {
     Json::Object entry;
@@ -19,7 +19,7 @@ Json metrics_json(const Value& value) {
   return out;
 }
 
-ValuePtr metrics_of_json(const Json& json) {
+ValuePtr metrics_of_json(const Json& json, Work&) {
   auto metrics = std::make_shared<Metrics>();
   for (const Json& entry : list_member(json, "metrics")) {
     Metric metric;
@@ -32,7 +32,7 @@ ValuePtr metrics_of_json(const Json& json) {
   return metrics;
 }
 
-std::string metrics_table(const Value& value) {
+std::string metrics_table(const Value& value, Work&) {
   std::string out = "name,value,unit\n";
   for (const Metric& metric : dynamic_cast<const Metrics&>(value).all) {
     out += csv_cell(metric.name) + ',';

@@ -144,7 +144,7 @@ Points read_points_table(std::string_view text, const ReadOptions& options, Work
       missing.push_back(empty[of[0]] || empty[of[1]] || empty[of[2]]);
       for (std::size_t axis : of) values.push_back(row[axis]);
     }
-    if (++rows % 256 == 0) work.check();
+    if (++rows % 16 == 0) work.check();
   }
   double rate = options.rate;
   if (times.size() >= 2) {
@@ -177,7 +177,7 @@ std::string write_points_table(const Points& points, Work& work) {
     for (const char* axis : {".x", ".y", ".z"}) out += ',' + csv_cell(label + axis);
   out += '\n';
   for (std::size_t t = 0; t < points.frames; ++t) {
-    if (t % 256 == 0) work.check();
+    if (t % 16 == 0) work.check();
     out += fmt::format("{},", t);
     append_shortest(out, static_cast<double>(t) / points.fps);
     for (int label = 0; label < static_cast<int>(points.labels.size()); ++label)

@@ -125,7 +125,7 @@ Rows read_rows(TextLines& lines, const Header& header, Work& work) {
       rows.missing.push_back(!read_cell(lines.text(), cells[2 + i], value));
       rows.values.push_back(value);
     }
-    if (rows.times.size() % 256 == 0) work.check();
+    if (rows.times.size() % 16 == 0) work.check();
   }
   if (rows.times.size() != header.frames)
     fail_at(lines.text(), lines.here(), rows.times.size() < header.frames ? "truncated" : "too-many-frames",
@@ -196,7 +196,7 @@ std::string write_trc(const Points& points, std::string_view name, const WriteOp
   for (std::size_t i = 1; i <= points.labels.size(); ++i) out += fmt::format("\tX{0}\tY{0}\tZ{0}", i);
   out += "\n\n";
   for (std::size_t t = 0; t < points.frames; ++t) {
-    if (t % 256 == 0) work.check();
+    if (t % 16 == 0) work.check();
     out += fmt::format("{}\t", t + 1);
     append_fixed(out, static_cast<double>(t) / points.fps, std::max(6, options.precision));
     for (int label = 0; label < static_cast<int>(points.labels.size()); ++label) {

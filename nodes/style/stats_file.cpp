@@ -17,7 +17,7 @@ void copy_to(const std::vector<double>& from, double* to) {
 
 }  // namespace
 
-Json stats_json(const Value& value) {
+Json stats_json(const Value& value, Work&) {
   const auto& stats = dynamic_cast<const Stats&>(value);
   Json::Array joints;
   for (std::size_t j = 0; j < stats.joints.size(); ++j) {
@@ -49,7 +49,7 @@ Json stats_json(const Value& value) {
   return out;
 }
 
-ValuePtr stats_of_json(const Json& json) {
+ValuePtr stats_of_json(const Json& json, Work&) {
   auto stats = std::make_shared<Stats>();
   stats->space = text_member(json, "space");
   if (stats->space != "quaternion" && stats->space != "euler")
@@ -92,7 +92,7 @@ ValuePtr stats_of_json(const Json& json) {
   return stats;
 }
 
-std::string stats_table(const Value& value) {
+std::string stats_table(const Value& value, Work&) {
   const auto& stats = dynamic_cast<const Stats&>(value);
   const bool euler = stats.space == "euler";
   std::string out = euler ? "name,order,mean.1,mean.2,mean.3,spread.1,spread.2,spread.3\n"

@@ -6,7 +6,7 @@
 
 namespace kinegraph {
 
-Json warp_json(const Value& value) {
+Json warp_json(const Value& value, Work&) {
   const auto& warp = dynamic_cast<const Warp&>(value);
   Json::Object out;
   out["identity"] = warp.identity;
@@ -40,7 +40,7 @@ Json warp_json(const Value& value) {
   return out;
 }
 
-ValuePtr warp_of_json(const Json& json) {
+ValuePtr warp_of_json(const Json& json, Work&) {
   auto warp = std::make_shared<Warp>();
   warp->identity = flag_member(json, "identity");
   warp->source_warped = flag_member(json, "source_warped");
@@ -89,7 +89,7 @@ ValuePtr warp_of_json(const Json& json) {
   return warp;
 }
 
-std::string warp_table(const Value& value) {
+std::string warp_table(const Value& value, Work& work) {
   const auto& warp = dynamic_cast<const Warp&>(value);
   std::string out = "row";
   if (warp.dofs.empty()) {
@@ -100,6 +100,7 @@ std::string warp_table(const Value& value) {
   out += '\n';
   const std::size_t rows = warp.paths.empty() ? 0 : warp.paths[0].size();
   for (std::size_t row = 0; row < rows; ++row) {
+    if (row % 1024 == 0) work.check();
     out += std::to_string(row);
     for (const auto& path : warp.paths) out += ',' + std::to_string(path[row]);
     out += '\n';

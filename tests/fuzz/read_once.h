@@ -36,7 +36,8 @@ inline bool read_amc_once(std::string_view asf, std::string_view amc) {
 
 inline bool read_analysis_once(std::string_view text) {
   try {
-    return read_analysis(text).value != nullptr;
+    Alone work;
+    return read_analysis(text, work).value != nullptr;
   } catch (const Failure&) {
     return false;
   }

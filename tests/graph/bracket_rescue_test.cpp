@@ -114,16 +114,17 @@ TEST(BracketRescue, WithoutAnyOneSignOfACanonicalFileTheOtherProblemsAreToldAndN
     for (const std::string& told : toys::in_short(result.problems)) {
       of_form += is_of_form(told);
       // A problem of a line that is itself broken may be hidden by that.
-      if (!is_of_form(told))
-        EXPECT_THAT(its_problems, testing::Contains(told.substr(0, told.find(':')) == std::to_string(line)
-                                                        ? testing::HasSubstr(told.substr(told.find(' ')))
-                                                        : testing::HasSubstr(told)))
-            << what;
+      if (is_of_form(told)) continue;
+      const bool here = told.substr(0, told.find(':')) == std::to_string(line);
+      EXPECT_THAT(its_problems,
+                  testing::Contains(testing::HasSubstr(here ? told.substr(told.find(' ')) : told)))
+          << what;
     }
     EXPECT_EQ(of_form, 1) << what;
     for (const std::string& problem : its_problems)
-      if (problem.substr(0, problem.find(':')) != std::to_string(line))
+      if (problem.substr(0, problem.find(':')) != std::to_string(line)) {
         EXPECT_THAT(toys::in_short(result.problems), testing::Contains(problem)) << what;
+      }
     ++left_out;
   }
   EXPECT_GT(left_out, 200);
@@ -164,10 +165,11 @@ TEST(BracketRescue, ATextCutOffAnywhereIsToldOnceAndNothingFalse) {
     EXPECT_LE(of_form, 2) << canonical.substr(0, length) << "\n" << toys::all_text(result.problems);
     const int last = line_of(canonical, length);
     for (const std::string& problem : its_problems)
-      if (std::stoi(problem) < last && !problem.ends_with("unknown-node"))
+      if (std::stoi(problem) < last && !problem.ends_with("unknown-node")) {
         EXPECT_THAT(toys::in_short(result.problems), testing::Contains(problem))
             << canonical.substr(0, length) << "\n"
             << toys::all_text(result.problems);
+      }
   }
 }
 

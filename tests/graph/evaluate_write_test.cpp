@@ -219,7 +219,7 @@ TEST_F(EvaluateWrite, AFullDiskLeavesNothingHalfWritten) {
     std::string code;
     try {
       StagedFiles staged;
-      staged.add(path, std::string(100'000, 'x'));
+      staged.add(path, std::string(100'000, 'x'), [] {});
       staged.put_in_place();
     } catch (const Failure& failure) {
       code = failure.diagnostic().code;
@@ -231,6 +231,24 @@ TEST_F(EvaluateWrite, AFullDiskLeavesNothingHalfWritten) {
   EXPECT_EQ(status, 0);
   EXPECT_FALSE(fs::exists(path));
   EXPECT_TRUE(leftovers().empty());
+}
+
+TEST_F(EvaluateWrite, StoppedWhileALargeFileIsWrittenItLeavesNothing) {
+  const std::string path = folder / "out/large.txt", bytes(std::size_t{8} << 20, 'x');
+  const auto left = [&] { return fs::exists(path) || !leftovers().empty(); };
+  for (int last = 1; last <= 8; ++last) {
+    int asked = 0;
+    try {
+      StagedFiles staged;
+      staged.add(path, bytes, [&] {
+        EXPECT_EQ(left(), true) << "it is being written aside";
+        if (++asked == last) throw Cancelled();
+      });
+      FAIL() << "a megabyte went by without asking: " << asked;
+    } catch (const Cancelled&) {
+    }
+    EXPECT_FALSE(left()) << last;
+  }
 }
 
 TEST_F(EvaluateWrite, DisabledOnesDoNotRun) {

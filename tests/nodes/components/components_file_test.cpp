@@ -27,11 +27,12 @@ Components grouped(Representation representation) {
 }
 
 TEST(ComponentsFile, ReadsBackEveryBit) {
+  Alone work;
   for (Representation representation : {Representation::points, Representation::quaternions,
                                         Representation::euler, Representation::logarithm}) {
     const Components components = grouped(representation);
     ASSERT_FALSE(components.segments[0].added.data.empty());
-    const AnalysisFile read = read_analysis(write_analysis(components_kind(), components));
+    const AnalysisFile read = read_analysis(write_analysis(components_kind(), components, work), work);
     EXPECT_TRUE(encoded(*read.value) == encoded(components)) << name_of(representation);
   }
 }
@@ -49,7 +50,7 @@ TEST(ComponentsFile, ReadsBackPoints) {
   params.components = 2;
   const auto space = space_of_points({clip}, Stabilise::none, {true, true, true, false});
   const Components components = components_of_points(space, {clip}, params, work);
-  EXPECT_EQ(encoded(*read_analysis(write_analysis(components_kind(), components)).value),
+  EXPECT_EQ(encoded(*read_analysis(write_analysis(components_kind(), components, work), work).value),
             encoded(components));
 }
 
@@ -57,17 +58,18 @@ TEST(ComponentsFile, KeepsAFilesOwnAnglesForExport) {
   KINEGRAPH_NEEDS_MOCAP();
   Alone work;
   const Components components = analysed({real_clip("cmu/bvh/09_06.bvh")}, Representation::points, 2, work);
-  const std::string text = write_analysis(components_kind(), components);
-  const AnalysisFile read = read_analysis(text);
-  EXPECT_TRUE(write_analysis(components_kind(), *read.value) == text);
+  const std::string text = write_analysis(components_kind(), components, work);
+  const AnalysisFile read = read_analysis(text, work);
+  EXPECT_TRUE(write_analysis(components_kind(), *read.value, work) == text);
   const auto& clip = *dynamic_cast<const Components&>(*read.value).segments[0].motion;
   ASSERT_TRUE(clip.source().read);
   EXPECT_TRUE(*clip.source().read == *components.segments[0].motion->source().read);
 }
 
 TEST(ComponentsFile, IsATableOfSignals) {
+  Alone work;
   const Components components = grouped(Representation::points);
-  const std::string table = components_table(components);
+  const std::string table = components_table(components, work);
   EXPECT_THAT(table, StartsWith("frame,segment,u1,u2\n0,0,"));
   EXPECT_THAT(table, HasSubstr("\n0,1,"));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'),
@@ -75,14 +77,15 @@ TEST(ComponentsFile, IsATableOfSignals) {
 }
 
 TEST(ComponentsFile, SaysWhatIsWrongAndWhere) {
-  const std::string good = write_analysis(components_kind(), grouped(Representation::points));
+  Alone work;
+  const std::string good = write_analysis(components_kind(), grouped(Representation::points), work);
   const auto refused = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     const auto at = text.find(from);
     EXPECT_NE(at, text.npos) << from;
     text.replace(at, from.size(), to);
     try {
-      read_analysis(text);
+      read_analysis(text, work);
     } catch (const Failure& failure) {
       EXPECT_GT(failure.diagnostic().place.line, 0);
       return failure.diagnostic().code;

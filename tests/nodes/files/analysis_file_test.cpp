@@ -58,6 +58,7 @@ Metrics some_metrics() {
 }
 
 TEST(AnalysisFile, ReadsBackWithoutLoss) {
+  Alone work;
   const Stats stats = some_stats();
   const Warp warp = some_warp();
   const Contacts contacts = some_contacts();
@@ -71,27 +72,29 @@ TEST(AnalysisFile, ReadsBackWithoutLoss) {
                                     {"warp", &warp},
                                     {"contacts", &contacts},
                                     {"metrics", &metrics}}) {
-    const AnalysisFile back = read_analysis(write_analysis(*kind_of_port(port), *value));
+    const AnalysisFile back = read_analysis(write_analysis(*kind_of_port(port), *value, work), work);
     EXPECT_EQ(back.kind->port, port);
     EXPECT_EQ(bytes_of(*back.value), bytes_of(*value)) << port;
   }
 }
 
 TEST(AnalysisFile, WritesTables) {
-  EXPECT_EQ(metrics_table(some_metrics()),
+  Alone work;
+  EXPECT_EQ(metrics_table(some_metrics(), work),
             "name,value,unit\nskate,0.3333333333333333,m/s\nstyle_distance,,°\n");
-  EXPECT_EQ(warp_table(some_warp()), "row,frame\n0,0\n1,1\n2,3\n3,4\n");
-  EXPECT_EQ(contacts_table(some_contacts()).substr(0, 47),
+  EXPECT_EQ(warp_table(some_warp(), work), "row,frame\n0,0\n1,1\n2,3\n3,4\n");
+  EXPECT_EQ(contacts_table(some_contacts(), work).substr(0, 47),
             "frame,time,LeftFoot.heel,RightFoot.ball\n0,0,1,0");
-  const std::string stats = stats_table(some_stats());
+  const std::string stats = stats_table(some_stats(), work);
   EXPECT_EQ(stats.substr(0, stats.find('\n')), "name,mean.x,mean.y,mean.z,mean.w,spread");
   EXPECT_NE(stats.find("\n\"Hips, \"\"the root\"\"\","), std::string::npos);
   EXPECT_EQ(stats.find("Leg"), std::string::npos);  // not chosen
 }
 
 std::string code_of(const std::string& text) {
+  Alone work;
   try {
-    read_analysis(text);
+    read_analysis(text, work);
   } catch (const Failure& failure) {
     return failure.diagnostic().code;
   }
@@ -103,7 +106,8 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 TEST(AnalysisFile, RefusesWhatItDoesNotKnow) {
-  const std::string good = write_analysis(*kind_of_port("contacts"), some_contacts());
+  Alone work;
+  const std::string good = write_analysis(*kind_of_port("contacts"), some_contacts(), work);
   EXPECT_EQ(code_of(good), "read");
   EXPECT_EQ(code_of("[]"), "not-an-analysis");
   EXPECT_EQ(code_of("{}"), "not-an-analysis");

@@ -106,9 +106,10 @@ TEST(Mutations, OfAnAcclaimPairNeverCrashTheReader) {
 }
 
 TEST(Mutations, OfAnAnalysisNeverCrashTheReader) {
+  Alone work;
   Metrics metrics;
   metrics.all = {{"skate", 0.25, "m/s"}, {"jerk", {}, "m/s³"}};
-  const std::string text = write_analysis(*kind_of_port("metrics"), metrics);
+  const std::string text = write_analysis(*kind_of_port("metrics"), metrics, work);
   std::mt19937 random(3);
   int read = 0;
   for (int i = 0; i < 3000; ++i) read += read_analysis_once(mutated(text, random));
