@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "nodes/cartoon/rubber_joints.h"
+#include "nodes/cartoon/skin_places.h"
 #include "nodes/motion/kinematics.h"
 
 namespace kinegraph {
@@ -66,6 +67,7 @@ class Rebinding {
 
   void part(const Skin& old_skin, const std::vector<std::uint32_t>& first, MeshPart& part, Work& work) const {
     const std::vector<Vec3> at = posed_vertices(old_, part, rest_);
+    const std::vector<double> places = places_of(old_skin, part, at, work);
     std::vector<std::vector<Influence>> all(part.vertices());
     std::vector<Share> shares;
     std::size_t most = 1;
@@ -75,7 +77,7 @@ class Rebinding {
       for (int i = 0; i < part.influences; ++i) {
         const std::size_t entry = v * static_cast<std::size_t>(part.influences) + static_cast<std::size_t>(i);
         if (part.weights[entry] != 0)
-          shares.push_back(share(old_skin, first, part.joints[entry], part.weights[entry], at[v]));
+          shares.push_back(share(old_skin, first, part.joints[entry], part.weights[entry], places[entry]));
       }
       keep_few(shares, usual_influences);
       for (const Share& one : shares)
@@ -96,17 +98,59 @@ class Rebinding {
   }
 
  private:
-  Share share(const Skin& skin, const std::vector<std::uint32_t>& first, std::uint32_t slot, double weight,
-              Vec3 v) const {
-    const int k = skin.joints[slot];
+  // Of each influence, where its vertex lies along the joint's link, in sub-links.
+  std::vector<double> places_of(const Skin& skin, const MeshPart& part, const std::vector<Vec3>& at,
+                                Work& work) const {
+    const auto influences = static_cast<std::size_t>(part.influences);
+    std::vector<double> places(part.weights.size());
+    std::vector<std::vector<std::size_t>> of_slot(skin.joints.size());  // influences on joints that are cut
+    std::vector<char> tight(at.size());
+    bool any = false;
+    for (std::size_t v = 0; v < at.size(); ++v) {
+      int joints = 0;
+      for (std::size_t entry = v * influences; entry < (v + 1) * influences; ++entry) {
+        if (part.weights[entry] == 0) continue;
+        ++joints;
+        const int k = skin.joints[part.joints[entry]];
+        if (sub_.all[sub_.first[k]].count == 1) continue;
+        places[entry] = place(k, at[v]);
+        of_slot[part.joints[entry]].push_back(entry);
+      }
+      tight[v] = joints >= static_cast<int>(usual_influences);
+      any = any || tight[v];
+    }
+    if (!any) return places;
+    const auto beside = mesh_neighbours(at, part.triangles);
+    for (std::size_t slot = 0; slot < of_slot.size(); ++slot) {
+      const int k = skin.joints[slot];
+      const SubJoint& one = sub_.all[sub_.first[k]];
+      JointSkin joint{at, beside, 0, {}, {}};
+      std::vector<double> own;
+      for (std::size_t entry : of_slot[slot]) {
+        joint.vertices.push_back(static_cast<int>(entry / influences));
+        joint.tight.push_back(tight[entry / influences] != 0);
+        own.push_back(places[entry]);
+      }
+      if (std::find(joint.tight.begin(), joint.tight.end(), true) == joint.tight.end()) continue;
+      joint.sub_link = norm(rest_.positions[one.next] - rest_.positions[k]) / one.count;
+      settle_places(joint, own, work);
+      for (std::size_t i = 0; i < own.size(); ++i) places[of_slot[slot][i]] = own[i];
+    }
+    return places;
+  }
+
+  double place(int k, Vec3 v) const {
     const SubJoint& one = sub_.all[sub_.first[k]];
-    if (one.count == 1) return {{first[slot], weight}, {}};
     const Vec3 start = rest_.positions[k], link = rest_.positions[one.next] - start;
     const double size = dot(link, link);
-    const double along = size > 0 ? one.count * dot(v - start, link) / size : 0;
-    const double place = std::clamp(along, 0.0, one.count - 1.0), before = std::floor(place);
+    return std::clamp(size > 0 ? one.count * dot(v - start, link) / size : 0, 0.0, one.count - 1.0);
+  }
+
+  Share share(const Skin& skin, const std::vector<std::uint32_t>& first, std::uint32_t slot, double weight,
+              double place) const {
+    if (sub_.all[sub_.first[skin.joints[slot]]].count == 1) return {{first[slot], weight}, {}};
     const auto nearest = static_cast<std::uint32_t>(std::floor(place + 0.5));
-    const auto above = static_cast<std::uint32_t>(before);
+    const auto above = static_cast<std::uint32_t>(std::floor(place));
     const double part = std::fabs(place - nearest);
     return {{first[slot] + nearest, weight * (1 - part)},
             {first[slot] + (nearest == above ? above + 1 : above), weight * part}};

@@ -18,7 +18,8 @@ inline constexpr int usual_influences = 4;
 //   w'_{v,k,l} = w_{v,k} max(0, 1 − |u − (l − 1)|).
 // [Kwon §5.5] gives every sub-joint of k its part by inverse distance, up to 16 a vertex; of those the four
 // largest are others for each of two neighbours, and the mesh tears between them. Two a joint are seldom over
-// four: then the smaller ones of pairs give way to the larger ones, so that sums per joint hold. At rest
+// four: then the smaller ones of pairs give way to the larger ones, so that sums per joint hold. Vertices of
+// four joints or more have room for one sub-joint of each: which one says settle_places(). At rest
 // every vertex stays where it was: inverse bind matrices are those of the joint, seen from the sub-joint's
 // own rest.
 Character rubber_character(const Character& character, const Motion& motion, const SubJoints& of_motion,
