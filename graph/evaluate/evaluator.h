@@ -22,6 +22,8 @@ struct RunCallbacks {
   // of state
   // ("running" at 0, then the name of the state it ended in).
   std::function<void(const std::string& node, std::string_view state, double progress)> progress;
+  // Once, before anything is computed: the nodes that are to be, as far as the caches tell.
+  std::function<void(const std::vector<std::string>& nodes)> waiting = {};
 };
 
 class Evaluator {

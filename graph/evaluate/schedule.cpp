@@ -36,6 +36,12 @@ Schedule::Schedule(const RunWorld& world, const Plan& plan, NodeKeys& keys, Dema
 }
 
 void Schedule::go() {
+  if (callbacks_.waiting) {
+    std::vector<std::string> names;
+    for (int node : demands_.order)
+      if (demand_of(node).runs) names.push_back(planned(node).name);
+    callbacks_.waiting(names);
+  }
   tbb::global_control machine(tbb::global_control::max_allowed_parallelism,
                               static_cast<std::size_t>(threads_));
   tbb::task_arena arena(threads_);

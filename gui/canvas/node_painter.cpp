@@ -149,6 +149,7 @@ QString shown_state(NodeStatus::State state) {
 QColor state_color(const Theme& theme, NodeStatus::State state) {
   using State = NodeStatus::State;
   switch (state) {
+    case State::waiting:
     case State::running:
       return theme.running;
     case State::done:
@@ -174,6 +175,7 @@ QString instead_of_still(NodeStatus::State state) {
     case State::idle:
       return QObject::tr("not computed yet");
     case State::waiting:
+      return QObject::tr("waits for its turn");
     case State::running:
       return QObject::tr("in the making");
     case State::blocked:
@@ -243,6 +245,15 @@ bool has_warning(const NodeStatus* status, std::optional<Severity> problem) {
                                 [](const Diagnostic& d) { return d.severity == Severity::warning; }));
 }
 
+// How it stands as a dot; a ring where its time is yet to come.
+void draw_state(QPainter& p, QPointF at, double radius, const QColor& color, NodeStatus::State state) {
+  const bool ring = state == NodeStatus::State::waiting;
+  p.setPen(ring ? QPen(color, radius * 0.5) : QPen(Qt::NoPen));
+  p.setBrush(ring ? QBrush(Qt::NoBrush) : QBrush(color));
+  if (ring) radius *= 0.8;
+  p.drawEllipse(at, radius, radius);
+}
+
 // What a node shows from afar: its name, at least 9 pixels on the screen where it fits, its type where there
 // is room, its still, and its state as a dot.
 void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, NodeStatus::State state,
@@ -282,10 +293,12 @@ void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, No
               QString::fromStdString(node.type));
   }
   if (!with_dot) return;
-  p.setPen(Qt::NoPen);
-  p.setBrush(bad ? theme.error : has_warning(status, problem) ? theme.warning : state_color(theme, state));
-  p.drawEllipse(QPointF(box.right() - 3.2 * dot, in_corner ? 3 / zoom + 1.6 * dot : title.center().y()), dot,
-                dot);
+  const bool plain = !bad && !has_warning(status, problem);
+  draw_state(p, QPointF(box.right() - 3.2 * dot, in_corner ? 3 / zoom + 1.6 * dot : title.center().y()), dot,
+             plain ? state_color(theme, state)
+             : bad ? theme.error
+                   : theme.warning,
+             plain ? state : NodeStatus::State::done);
 }
 
 }  // namespace
@@ -348,14 +361,15 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
     p.setFont(font_of(11));
     p.setPen(theme.faint_text);
     QString right;
-    if (state == State::done && status)
+    const bool timed = status && (status->seconds > 0 || !status->cached.empty());
+    if (state == State::done && timed)
       right = status->cached == "memory" || status->cached == "disk"
                   ? (status->seconds >= 0.0005 ? shown_seconds(status->seconds) + " · " : QString()) +
                         QObject::tr("cached")
                   : shown_seconds(status->seconds);
     else if (state == State::incomplete)
       right = what_it_needs(*status);
-    else if (state != State::idle)
+    else if (state != State::idle && state != State::done)
       right = shown_state(state);
     const double right_width = right.isEmpty() ? 0 : QFontMetricsF(p.font()).horizontalAdvance(right) + 4;
     draw_text(p, QRectF(12, 21, box.width() - 28 - right_width, 16), Qt::AlignLeft,
@@ -371,11 +385,8 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
       draw_badge(p, badge, theme.error, theme.node, "!");
     else if (has_warning(status, problem) || state == State::incomplete)
       draw_badge(p, badge, theme.warning, theme.node, "!");
-    else if (state != State::idle) {
-      p.setPen(Qt::NoPen);
-      p.setBrush(state_color(theme, state));
-      p.drawEllipse(badge, 4, 4);
-    }
+    else if (state != State::idle)
+      draw_state(p, badge, 4, state_color(theme, state), state);
     p.setFont(font_of(11.5));
     for (const bool input : {true, false})
       for (const ScenePort& port : input ? node.inputs : node.outputs) {

@@ -238,6 +238,9 @@ void Evaluation::run(EvaluationRequest request) {
     status.progress = progress;
     deliver_status(node, std::move(status), result->generation);
   };
+  callbacks.waiting = [&](const std::vector<std::string>& nodes) {
+    deliver_waiting(nodes, result->generation);
+  };
   result->log = evaluator_.run(plan, targets, options, callbacks, stop.get());
   for (const Target& target : targets) {
     const NodeType* type = nullptr;
@@ -439,6 +442,26 @@ void Evaluation::deliver_status(const std::string& node, NodeStatus status, std:
         known = std::move(status);
         if (node.find('/') != std::string::npos) sum_up_graph_nodes();
         emit status_changed(QString::fromStdString(node));
+      },
+      Qt::QueuedConnection);
+}
+
+void Evaluation::deliver_waiting(std::vector<std::string> nodes, std::uint64_t generation) {
+  if (nodes.empty()) return;
+  QMetaObject::invokeMethod(
+      this,
+      [this, nodes = std::move(nodes), generation] {
+        {
+          std::lock_guard lock(mutex_);
+          if (generation != generation_) return;
+        }
+        for (const std::string& node : nodes) {
+          NodeStatus& status = statuses_[node];
+          status.state = NodeStatus::State::waiting;
+          status.progress = 0;
+          emit status_changed(QString::fromStdString(node));
+        }
+        sum_up_graph_nodes();
       },
       Qt::QueuedConnection);
 }

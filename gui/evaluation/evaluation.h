@@ -20,7 +20,18 @@ namespace kinegraph {
 // How a node stands, as its body on the canvas shows it.
 struct NodeStatus {
   // incomplete: an input that it needs is not linked yet.
-  enum class State { idle, waiting, running, done, failed, blocked, cancelled, disabled, missing, incomplete };
+  enum class State {
+    idle,
+    waiting,
+    running,
+    done,
+    failed,
+    blocked,
+    cancelled,
+    disabled,
+    missing,
+    incomplete
+  };
   State state = State::idle;
   double progress = 0;  // 0 to 1 while running
   double seconds = 0;
@@ -85,6 +96,7 @@ class Evaluation : public QObject {
   void find_outdated(const Document& document, Result& result);
   void take_stills(const std::map<std::string, std::shared_ptr<const Still>>& stills);
   void sum_up_graph_nodes();
+  void deliver_waiting(std::vector<std::string> nodes, std::uint64_t generation);
   void deliver_status(const std::string& node, NodeStatus status, std::uint64_t generation);
 
   const Registry& registry_;

@@ -237,5 +237,17 @@ TEST_F(Evaluate, TellsProgressAndStates) {
   EXPECT_EQ(told["a"], (std::vector<std::string>{"running", "done"}));
 }
 
+TEST_F(Evaluate, TellsBeforehandWhatHasToBeComputed) {
+  memory.emplace(1 << 20);
+  std::vector<std::string> waiting;
+  callbacks.waiting = [&](const std::vector<std::string>& nodes) { waiting = nodes; };
+  run(plan_of(diamond), {{"left", "sum"}});
+  EXPECT_EQ(waiting, (std::vector<std::string>{"a", "b", "left"}));
+  run(plan_of(diamond), {{"top", "sum"}});
+  EXPECT_EQ(waiting, (std::vector<std::string>{"c", "right", "top"})) << "left is in the cache";
+  run(plan_of(diamond), {{"top", "sum"}});
+  EXPECT_TRUE(waiting.empty());
+}
+
 }  // namespace
 }  // namespace kinegraph

@@ -4,8 +4,11 @@
 
 #include <QFile>
 #include <QFileDialog>
+#include <QProgressBar>
+#include <QPushButton>
 #include <QTabBar>
 #include <QTimer>
+#include <fstream>
 
 #include "graph/nested.h"
 #include "gui/viewer/viewer.h"
@@ -158,6 +161,30 @@ TEST(EditorEvaluation, WhatIsWrongStandsAsideAndTheRestRuns) {
   EXPECT_EQ(editor.window.evaluation().status(feet)->state, NodeStatus::State::incomplete);
 }
 
+TEST(EditorEvaluation, ANodeThatWaitsForAnotherSaysSo) {
+  Editor editor;
+  editor.session().open_text(R"({"format": "kinegraph", "schema": 1, "nodes": {
+    "a": {"type": "Gait", "params": {"seconds": 200}},
+    "b": {"type": "Gait", "params": {"gait": "sneak", "seconds": 200}},
+    "warp": {"type": "TimeWarp", "inputs": {"source": "a.motion", "reference": "b.motion"}},
+    "back": {"type": "UnwarpTime", "inputs": {"motion": "warp.warped", "warp": "warp.warp"}}}})",
+                             {});
+  editor.session().select({"back"}, "back");
+  const auto state = [&](const char* node) {
+    const NodeStatus* status = editor.window.evaluation().status(node);
+    return status ? status->state : NodeStatus::State::idle;
+  };
+  EXPECT_TRUE(QTest::qWaitFor(
+      [&] {
+        return state("warp") == NodeStatus::State::running && state("back") == NodeStatus::State::waiting;
+      },
+      60000));
+  // Whoever cancels sees that neither goes on.
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_Period, Qt::ControlModifier);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return state("back") == NodeStatus::State::cancelled; }, 20000));
+}
+
 TEST(EditorEvaluation, AMotionsNodeHasAStill) {
   Editor editor;
   const std::string gait = editor.add("gait");
@@ -196,6 +223,69 @@ TEST(EditorPages, AGraphNodeWhoseFileIsGoneIsMendedAmongItsParameters) {
   EXPECT_FALSE(has_error(editor.session().problems()));
   editor.key(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_TRUE(has_error(editor.session().problems()));
+}
+
+// Sixty files of a thousand nodes inside a graph, which take far longer to read than a window may stand
+// still.
+struct ManyInside : Editor {
+  ManyInside() : path(folder.filePath("outer.kg.json")) {
+    std::string inside =
+        R"({"format": "kinegraph", "schema": 1, "publish": {"outputs": {"motion": "t998.motion"}},
+      "nodes": {"walk": {"type": "Gait"})";
+    for (int i = 0; i < 999; ++i)
+      inside += ",\n\"t" + std::to_string(i) + R"(": {"type": "Trim", "inputs": {"motion": ")" +
+                (i ? "t" + std::to_string(i - 1) : "walk") + ".motion\"}}";
+    std::string outer = R"({"format": "kinegraph", "schema": 1, "nodes": {"walk": {"type": "Gait"})";
+    for (int i = 0; i < 60; ++i) {
+      const std::string file = "inside" + std::to_string(i) + ".kg.json";
+      std::ofstream(folder.filePath(QString::fromStdString(file)).toStdString()) << inside << "}}";
+      outer += ",\n\"g" + std::to_string(i) + R"(": {"type": "Graph", "params": {"file": ")" + file + "\"}}";
+    }
+    std::ofstream(path.toStdString()) << outer << "}}";
+    QObject::connect(&turn, &QTimer::timeout, [this] { ++turns; });
+    turn.start(1);
+  }
+  bool all_read() {
+    for (const auto& [name, node] : document().nodes)
+      if (name != "walk" && (!node.nested || !node.nested->document)) return false;
+    return true;
+  }
+  QString path;
+  QTimer turn;
+  int turns = 0;
+};
+
+TEST(EditorPages, TheWindowLivesWhileManyFilesInsideAreRead) {
+  ManyInside editor;
+  ASSERT_TRUE(editor.window.open(editor.path));
+  EXPECT_GT(editor.turns, 10) << "the window stood still while the graph was opened";
+  EXPECT_TRUE(editor.all_read());
+  // A colleague's pull: they are read again, by and by.
+  editor.turns = 0;
+  editor.session().reopen_inside();
+  EXPECT_TRUE(editor.session().is_reading_inside());
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !editor.session().is_reading_inside(); }, 60000));
+  EXPECT_GT(editor.turns, 10);
+  EXPECT_TRUE(editor.all_read());
+}
+
+TEST(EditorPages, ReadingManyFilesInsideIsCancelledAndTakenUpAgain) {
+  ManyInside editor;
+  ASSERT_TRUE(editor.window.open(editor.path));
+  editor.session().reopen_inside();
+  ASSERT_TRUE(editor.session().is_reading_inside());
+  EXPECT_TRUE(editor.window.findChild<QProgressBar*>()->isVisible());
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_Period, Qt::ControlModifier);
+  EXPECT_FALSE(editor.session().is_reading_inside());
+  QPushButton* again = nullptr;
+  for (QPushButton* button : editor.window.findChildren<QPushButton*>())
+    if (button->text() == "Read them" && button->isVisible()) again = button;
+  ASSERT_TRUE(again);
+  QTest::mouseClick(again, Qt::LeftButton);
+  EXPECT_TRUE(editor.session().is_reading_inside());
+  EXPECT_TRUE(
+      QTest::qWaitFor([&] { return !editor.session().is_reading_inside() && editor.all_read(); }, 60000));
 }
 
 TEST(EditorPages, EachPageKeepsThePinsOfItsViewer) {

@@ -79,7 +79,10 @@ void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
     for (clock.start(); clock.elapsed() < 60000;) {
       QApplication::processEvents(QEventLoop::AllEvents, 20);
       const NodeStatus* running = shot.window.evaluation().status("running");
-      if (running && running->state == NodeStatus::State::running) break;
+      const NodeStatus* waiting = shot.window.evaluation().status("waiting");
+      if (running && running->state == NodeStatus::State::running && waiting &&
+          waiting->state == NodeStatus::State::waiting)
+        break;
     }
     shot.take_widget("node_states" + end, &shot.canvas());
     shot.window.resize(1280, 800);
