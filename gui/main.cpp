@@ -3,9 +3,9 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QStandardPaths>
-#include <QStyleFactory>
 #include <cstdio>
 
+#include "gui/window/editor_style.h"
 #include "gui/window/main_window.h"
 #include "gui/window/screenshot.h"
 #include "nodes/all_nodes.h"
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   QApplication::setApplicationName("kinegraph-editor");
   QApplication::setOrganizationName("kinegraph");
   QApplication::setApplicationVersion(KINEGRAPH_VERSION);
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  QApplication::setStyle(new kinegraph::EditorStyle);
 
   QCommandLineParser options;
   options.setApplicationDescription("Edits Kinegraph's graphs of character motion.");

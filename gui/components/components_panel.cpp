@@ -296,7 +296,7 @@ void ComponentsPanel::take_values() {
       empty_->setText(tr("%1 waits for a node before it that failed or is not linked. Problems tells which.")
                           .arg(QString::fromStdString(components_.node)));
     } else {
-      empty_->setText(tr("Finding the components of %1 …").arg(QString::fromStdString(components_.node)));
+      empty_->setText(tr("Finding the components of %1…").arg(QString::fromStdString(components_.node)));
     }
   }
   pages_->setCurrentIndex(picture && !components_.node.empty() ? 1 : 0);

@@ -264,7 +264,7 @@ QString CurvesPanel::why_not(const Offer& offer) const {
     case State::incomplete:
       return tr("%1 isn't linked yet.").arg(node);
     default:
-      return tr("Evaluating %1 …").arg(offer.name);
+      return tr("Evaluating %1…").arg(offer.name);
   }
 }
 
@@ -302,7 +302,7 @@ void CurvesPanel::fill_joints(const ShownMotion& motion) {
 
 void CurvesPanel::show_channels(const Offer& offer) {
   const auto result = viewer_.motions().find(evaluation_.value(offer.result.node, offer.result.port));
-  if (!result) return tell(tr("Evaluating %1 …").arg(offer.name));
+  if (!result) return tell(tr("Evaluating %1…").arg(offer.name));
   fill_joints(*result);
   const std::string name = joint_->currentText().toStdString();
   const auto channel = static_cast<Channel>(std::max(0, channel_->currentIndex()));

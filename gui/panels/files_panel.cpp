@@ -2,7 +2,6 @@
 
 #include <QCoreApplication>
 #include <QDir>
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLineEdit>
@@ -12,6 +11,7 @@
 #include <QVBoxLayout>
 #include <vector>
 
+#include "gui/window/ask_file.h"
 #include "gui/window/icons.h"
 #include "gui/window/settings.h"
 
@@ -77,8 +77,7 @@ FilesPanel::FilesPanel(Session& session, QWidget* parent)
   row->addWidget(more);
   column->addLayout(row);
   connect(more, &QPushButton::clicked, this, [this] {
-    const QString folder =
-        QFileDialog::getExistingDirectory(this, tr("A folder of clips"), session_.folder());
+    const QString folder = ask_for_folder(this, tr("A folder of clips"), session_.folder());
     if (folder.isEmpty()) return;
     const auto settings = user_settings();
     QStringList folders = settings->value("assets").toStringList();
@@ -158,7 +157,7 @@ void FilesPanel::fill() {
     sections.back()->setToolTip(0, QDir::toNativeSeparators(in));
     const auto known = clips_.find(in);
     if (known == clips_.end()) {
-      auto* looking = new QTreeWidgetItem(sections.back(), {tr("looking …")});
+      auto* looking = new QTreeWidgetItem(sections.back(), {tr("Looking…")});
       looking->setFlags(Qt::NoItemFlags);
       return;
     }
@@ -171,7 +170,7 @@ void FilesPanel::fill() {
   for (QTreeWidgetItem* item : sections) {
     item->setExpanded(true);
     if (item->childCount()) continue;
-    auto* none = new QTreeWidgetItem(item, {wanted.isEmpty() ? tr("none yet") : tr("none of that name")});
+    auto* none = new QTreeWidgetItem(item, {wanted.isEmpty() ? tr("None yet") : tr("None of that name")});
     none->setFlags(Qt::NoItemFlags);
   }
 }

@@ -4,14 +4,16 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDir>
-#include <QFileDialog>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QStyle>
 #include <QToolButton>
 #include <QWheelEvent>
 
 #include "gui/panels/arithmetic.h"
 #include "gui/panels/text_field.h"
+#include "gui/window/ask_file.h"
 
 namespace kinegraph {
 namespace {
@@ -24,6 +26,21 @@ class Still : public Widget {
 
  protected:
   void wheelEvent(QWheelEvent* event) override { event->ignore(); }
+};
+
+// A folder, in the ink of the theme that is shown.
+class FolderButton : public QToolButton {
+ public:
+  explicit FolderButton(QWidget* parent) : QToolButton(parent) { draw(); }
+
+ protected:
+  void changeEvent(QEvent* event) override {
+    if (event->type() == QEvent::StyleChange) draw();
+    QToolButton::changeEvent(event);
+  }
+
+ private:
+  void draw() { setIcon(style()->standardIcon(QStyle::SP_DirIcon)); }
 };
 
 class BooleanField : public ParamField {
@@ -95,16 +112,15 @@ class FileField : public TextField {
       : TextField(param, parent), context_(context) {
     line_->setPlaceholderText(param.kind == ParamType::Kind::open_file ? tr("no file")
                                                                        : tr("where to write"));
-    auto* button = new QToolButton(this);
-    button->setText("…");
+    auto* button = new FolderButton(this);
     button->setAccessibleName(tr("Choose a file for %1").arg(QString::fromStdString(param.name)));
     button->setToolTip(tr("Choose a file"));
     layout()->addWidget(button);
     connect(button, &QToolButton::clicked, this, [this] {
       const QString start = QDir(context_.folder).absoluteFilePath(line_->text());
       const QString path = type_.kind == ParamType::Kind::open_file
-                               ? QFileDialog::getOpenFileName(this, tr("Choose a file"), start)
-                               : QFileDialog::getSaveFileName(this, tr("Where to write"), start);
+                               ? ask_to_open(this, tr("Choose a file"), start)
+                               : ask_where_to_save(this, tr("Where to write"), start);
       if (!path.isEmpty()) emit edited(Json(context_.written_path(path).toStdString()));
     });
   }

@@ -49,11 +49,11 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
   stack->addWidget(some_);
   auto* column = new QVBoxLayout(some_);
   column->setContentsMargins(10, 10, 10, 8);
-  column->setSpacing(6);
+  column->setSpacing(8);
 
   auto* head = new QGridLayout;
   head->setHorizontalSpacing(8);
-  head->setVerticalSpacing(5);
+  head->setVerticalSpacing(7);
   name_ = new QLineEdit(some_);
   name_->setObjectName("node_name");
   name_->setAccessibleName(tr("Name of the node"));
@@ -61,7 +61,7 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
   enabled_->setAccessibleName(tr("Enabled"));
   note_ = new QLineEdit(some_);
   note_->setAccessibleName(tr("Note"));
-  note_->setPlaceholderText(tr("note"));
+  note_->setPlaceholderText(tr("Add a note…"));
   type_label_ = new QLabel(some_);
   type_label_->setWordWrap(true);
   type_label_->setTextFormat(Qt::RichText);
@@ -85,8 +85,10 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
   scroll_->setFocusPolicy(Qt::NoFocus);
   column->addWidget(scroll_, 1);
   help_ = faint_label({}, some_);
+  help_->setObjectName("param_help");
+  help_->setIndent(0);
   help_->setAlignment(Qt::AlignTop);
-  help_->setFixedHeight(fontMetrics().lineSpacing() * 3 + 4);
+  help_->setFixedHeight(help_height());
   column->addWidget(help_);
 
   connect(name_, &QLineEdit::editingFinished, this, [this] {
@@ -113,6 +115,11 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
     if (node.toStdString() == node_) refresh_state();
   });
   show_node();
+}
+
+// Three lines, and the line above them.
+int ParameterPanel::help_height() const {
+  return fontMetrics().lineSpacing() * 3 + 12;
 }
 
 void ParameterPanel::set_theme(const Theme& theme) {
@@ -372,8 +379,7 @@ void ParameterPanel::open_menu(const std::string& param, QToolButton* button) {
       text += "<br><b>" + QString::fromStdString(choice.key).toHtmlEscaped() +
               "</b>: " + QString::fromStdString(choice.help).toHtmlEscaped();
     help_->setText(text);
-    help_->setFixedHeight(
-        std::max(fontMetrics().lineSpacing() * 3 + 4, help_->heightForWidth(help_->width()) + 4));
+    help_->setFixedHeight(std::max(help_height(), help_->heightForWidth(help_->width()) + 8));
   });
   menu.exec(button->mapToGlobal(QPoint(0, button->height())));
 }
@@ -381,7 +387,7 @@ void ParameterPanel::open_menu(const std::string& param, QToolButton* button) {
 bool ParameterPanel::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::FocusIn || event->type() == QEvent::Enter) {
     if (const QVariant help = watched->property("help"); help.isValid()) {
-      help_->setFixedHeight(fontMetrics().lineSpacing() * 3 + 4);
+      help_->setFixedHeight(help_height());
       help_->setText(help.toString().toHtmlEscaped());
     }
     if (event->type() == QEvent::FocusIn)

@@ -73,7 +73,8 @@ class PatternField : public TextField {
     QMenu menu(this);
     auto* tree = new QTreeWidget;
     tree->setHeaderHidden(true);
-    tree->setMinimumSize(260, 340);
+    tree->setMinimumSize(280, 440);
+    tree->setFrameShape(QFrame::NoFrame);
     tree->setAccessibleName(tr("Joints"));
     std::vector<std::string> names;
     for (const auto& [name, parent] : joints) names.push_back(name);
@@ -88,6 +89,7 @@ class PatternField : public TextField {
       const int parent = joints[i].second;
       auto* item = parent >= 0 ? new QTreeWidgetItem(items[std::size_t(parent)]) : new QTreeWidgetItem(tree);
       item->setText(0, QString::fromStdString(names[i]));
+      item->setSizeHint(0, QSize(0, tree->fontMetrics().height() + 6));
       item->setCheckState(0, ticked[i] ? Qt::Checked : Qt::Unchecked);
       items.push_back(item);
     }

@@ -10,6 +10,16 @@ bool of_a_clip(const Diagnostic& problem) {
   return !problem.file.empty() && !QString::fromStdString(problem.file).endsWith(".kg.json");
 }
 
+// As a person writes: a capital at the start, where that is a word and no name, and a stop at the end.
+QString sentence(QString text) {
+  int letters = 0;
+  while (letters < text.size() && text[letters].isLetter()) ++letters;
+  if (letters > 0 && letters < text.size() && (text[letters] == ' ' || text[letters] == ','))
+    text[0] = text[0].toUpper();
+  if (!text.isEmpty() && !QString(".!?:…").contains(text.back())) text += '.';
+  return text;
+}
+
 }  // namespace
 
 QString problem_text(const Diagnostic& problem) {
@@ -19,8 +29,9 @@ QString problem_text(const Diagnostic& problem) {
   if (of_a_clip(problem) && problem.place.line > 0) {
     const QString name = QFileInfo(QString::fromStdString(problem.file)).fileName();
     text = QObject::tr("%1, line %2: %3").arg(name).arg(problem.place.line).arg(text);
+    return text.endsWith('.') ? text : text + '.';
   }
-  return text;
+  return sentence(text);
 }
 
 QString place_of(const Diagnostic& problem) {
@@ -33,7 +44,9 @@ QString place_of(const Diagnostic& problem) {
 }
 
 QString advice_on(const Diagnostic& problem) {
-  const QString hint = QString::fromStdString(problem.hint);
+  if (problem.code == "missing-file")
+    return QObject::tr("Choose another file, or let “Find missing files…” (Ctrl+Shift+R) look for it.");
+  const QString hint = sentence(QString::fromStdString(problem.hint));
   if (!hint.isEmpty() || !of_a_clip(problem) || problem.severity != Severity::error) return hint;
   const QString name = QFileInfo(QString::fromStdString(problem.file)).fileName();
   return problem.place.line > 0

@@ -31,10 +31,10 @@ class WrappedRows : public QStyledItemDelegate {
  public:
   explicit WrappedRows(QTreeWidget* list) : QStyledItemDelegate(list), list_(list) {}
   QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
-    const int beside = index.column() == 0 ? 34 : 10, width = list_->columnWidth(index.column()) - beside;
+    const int beside = index.column() == 0 ? 46 : 18, width = list_->columnWidth(index.column()) - beside;
     const QRect words = option.fontMetrics.boundingRect(QRect(0, 0, std::max(40, width), 2000),
                                                         Qt::TextWordWrap, index.data().toString());
-    return QSize(words.width() + beside, words.height() + 6);
+    return QSize(words.width() + beside, words.height() + 10);
   }
 
  private:
@@ -65,7 +65,8 @@ ProblemsPanel::ProblemsPanel(Session& session, Evaluation& evaluation, QWidget* 
   list_->header()->setStretchLastSection(false);
   list_->header()->setSectionResizeMode(1, QHeaderView::Stretch);
   list_->header()->setSectionResizeMode(2, QHeaderView::Stretch);
-  list_->setColumnWidth(0, 150);
+  list_->setColumnWidth(0, 160);
+  list_->header()->setMinimumSectionSize(60);
   // Rows are as high as their wrapped words, which change with the columns.
   connect(list_->header(), &QHeaderView::sectionResized, this,
           [this] { QTimer::singleShot(0, list_, &QTreeWidget::doItemsLayout); });

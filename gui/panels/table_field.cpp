@@ -57,7 +57,7 @@ class TableField : public ParamField {
       : ParamField(parent),
         type_(param),
         table_(new QTableWidget(this)),
-        none_(new QLabel(tr("none"), table_->viewport())) {
+        none_(new QLabel(tr("None"), table_->viewport())) {
     using Kind = ParamType::Kind;
     const ParamType element = param.parts.empty() ? text("") : param.parts[0];
     by_name_ = param.kind == Kind::table;
@@ -78,10 +78,12 @@ class TableField : public ParamField {
     }
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(2);
+    column->setSpacing(4);
     table_->setColumnCount(int(columns_.size()));
     table_->setAccessibleName(QString::fromStdString(param.name));
     table_->verticalHeader()->hide();
+    table_->setShowGrid(false);
+    table_->horizontalHeader()->setHighlightSections(false);
     table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 10);
     table_->horizontalHeader()->setVisible(!titles.isEmpty());
     table_->horizontalHeader()->setSectionResizeMode(columns_.size() > 4 ? QHeaderView::ResizeToContents

@@ -15,7 +15,8 @@ TextField::TextField(const Param& param, QWidget* parent)
     : ParamField(parent), type_(param), line_(new QLineEdit(this)) {
   row_of(this)->addWidget(line_, 1);
   line_->setAccessibleName(QString::fromStdString(param.name));
-  line_->setPlaceholderText(QString::fromStdString(described(param)));
+  line_->setPlaceholderText(param.kind == ParamType::Kind::text ? QObject::tr("not set")
+                                                                : QString::fromStdString(described(param)));
   setFocusProxy(line_);
   connect(line_, &QLineEdit::editingFinished, this, [this] {
     if (line_->text() == shown_) return;

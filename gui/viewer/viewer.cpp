@@ -111,7 +111,8 @@ void Viewer::build() {
   words_ = new QLabel(stage_);
   words_->setAlignment(Qt::AlignCenter);
   words_->setWordWrap(true);
-  words_->setMinimumWidth(260);
+  words_->setTextFormat(Qt::RichText);
+  words_->setMinimumWidth(280);
   words_->setAttribute(Qt::WA_TransparentForMouseEvents);
   auto* over = new QVBoxLayout(stage_);
   over->setContentsMargins(28, 12, 28, 12);
@@ -484,19 +485,23 @@ void Viewer::update_words() {
     using State = NodeStatus::State;
     if (status && (status->state == State::failed || status->state == State::missing ||
                    status->state == State::incomplete)) {
-      words = status->state == State::incomplete ? tr("%1 isn't linked yet.").arg(name)
-                                                 : tr("%1 failed.").arg(name);
+      words = "<b>" +
+              (status->state == State::incomplete ? tr("%1 isn't linked yet.") : tr("%1 failed."))
+                  .arg(name.toHtmlEscaped()) +
+              "</b>";
       for (const Diagnostic& problem : status->diagnostics)
         if (problem.severity == Severity::error) {
-          words += "\n" + problem_text(problem);
-          if (const QString advice = advice_on(problem); !advice.isEmpty()) words += "\n\n" + advice;
+          words += "<p style='margin: 6px 0 0 0'>" + problem_text(problem).toHtmlEscaped() + "</p>";
+          if (const QString advice = advice_on(problem); !advice.isEmpty())
+            words += QString("<p style='margin: 6px 0 0 0; color: %1'>%2</p>")
+                         .arg(theme_->faint_text.name(), advice.toHtmlEscaped());
           break;
         }
     } else if (status && status->state == State::blocked) {
-      words = tr("%1 waits for something before it that failed or is not linked.\nProblems tells which.")
-                  .arg(name);
+      words = tr("%1 waits for something before it that failed or is not linked. Problems tells which.")
+                  .arg(name.toHtmlEscaped());
     } else {
-      words = tr("Evaluating %1 …").arg(name);
+      words = tr("Evaluating %1…").arg(name.toHtmlEscaped());
     }
   }
   if (any && words.isEmpty()) {

@@ -119,8 +119,9 @@ constexpr MouseRow gestures[] = {
 };
 
 QString section(const QString& title, const QStringList& lines, bool first = false) {
-  return QString("<tr><td colspan=2>%1<b>%2</b></td></tr>%3")
-      .arg(first ? "" : "<br>", title, lines.join(QString()));
+  return QString("<tr><td colspan=3 style='padding: %1px 6px 4px 6px'><b>%2</b></td></tr>%3")
+      .arg(first ? 2 : 18)
+      .arg(title, lines.join(QString()));
 }
 
 }  // namespace
@@ -139,11 +140,16 @@ std::span<const MouseRow> mouse_gestures() {
   return gestures;
 }
 
-QString help_page() {
-  QString page = "<table cellspacing=3>";
-  const auto line = [](const QString& keys, const QString& what) {
-    return QString("<tr><td style='padding-right:18px'>%1</td><td>%2</td></tr>")
-        .arg(keys.toHtmlEscaped(), what.toHtmlEscaped());
+QString help_page(const Theme& theme) {
+  QString page = "<table cellspacing=2 width='100%'>";
+  // Keys stand on a ground of their own, as on caps.
+  const auto line = [&](const QString& keys, const QString& name, const QString& what) {
+    return QString(
+               "<tr><td bgcolor='%1' style='padding: 3px 8px'>%2</td>"
+               "<td style='padding: 3px 8px 3px 12px'>%3</td>"
+               "<td style='padding: 3px 6px; color: %4'>%5</td></tr>")
+        .arg(theme.raised.name(), keys.toHtmlEscaped(), name.toHtmlEscaped(), theme.faint_text.name(),
+             what.toHtmlEscaped());
   };
   const std::pair<Where, QString> places[] = {{Where::window, QObject::tr("Everywhere")},
                                               {Where::graph, QObject::tr("In the graph")},
@@ -153,12 +159,19 @@ QString help_page() {
     QStringList lines;
     for (const ActionRow& row : rows)
       if (row.where == where)
-        lines << line(QObject::tr(row.keys),
-                      QString(QObject::tr(row.text)).remove('&').remove("…") + ": " + QObject::tr(row.what));
+        lines << line(QObject::tr(row.keys), QString(QObject::tr(row.text)).remove('&').remove("…"),
+                      QObject::tr(row.what));
     page += section(title, lines, where == Where::window);
   }
   QStringList lines;
-  for (const MouseRow& row : gestures) lines << line(QObject::tr(row.gesture), QObject::tr(row.what));
+  const auto gesture = [&](const MouseRow& row) {
+    return QString(
+               "<tr><td bgcolor='%1' style='padding: 3px 8px'>%2</td>"
+               "<td colspan=2 style='padding: 3px 8px 3px 12px'>%3</td></tr>")
+        .arg(theme.raised.name(), QObject::tr(row.gesture).toHtmlEscaped(),
+             QObject::tr(row.what).toHtmlEscaped());
+  };
+  for (const MouseRow& row : gestures) lines << gesture(row);
   return page + section(QObject::tr("With the mouse"), lines) + "</table>";
 }
 

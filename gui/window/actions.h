@@ -5,6 +5,8 @@
 #include <QStringList>
 #include <span>
 
+#include "gui/window/theme.h"
+
 namespace kinegraph {
 
 struct ActionRow {
@@ -30,6 +32,6 @@ struct MouseRow {
 };
 std::span<const MouseRow> mouse_gestures();
 
-QString help_page();  // rich text
+QString help_page(const Theme& theme);  // rich text
 
 }  // namespace kinegraph

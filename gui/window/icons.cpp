@@ -97,6 +97,79 @@ void draw(QPainter& p, Sign sign, const Theme& theme) {
       p.drawEllipse(QPointF(8, 8), 1.6, 1.6);
       break;
     }
+    case Sign::file:
+    case Sign::new_file:
+      p.drawPolygon(QPolygonF({{3.5, 2}, {9, 2}, {12.5, 5.5}, {12.5, 14}, {3.5, 14}}));
+      p.drawPolyline(QPolygonF({{9, 2}, {9, 5.5}, {12.5, 5.5}}));
+      break;
+    case Sign::computer:
+      p.drawRoundedRect(QRectF(2, 3, 12, 8), 1, 1);
+      p.drawLine(QPointF(5, 13.5), QPointF(11, 13.5));
+      break;
+    case Sign::home:
+      p.drawPolyline(QPolygonF({{2, 8}, {8, 2.5}, {14, 8}}));
+      p.drawPolyline(QPolygonF({{4, 7}, {4, 13.5}, {12, 13.5}, {12, 7}}));
+      break;
+    case Sign::back:
+    case Sign::forward:
+    case Sign::up:
+      p.translate(8, 8);
+      p.rotate(sign == Sign::up ? 90 : sign == Sign::forward ? 180 : 0);
+      p.drawLine(QPointF(-5, 0), QPointF(5, 0));
+      p.drawPolyline(QPolygonF({{-1, -4}, {-5, 0}, {-1, 4}}));
+      break;
+    case Sign::new_folder:
+      p.drawPolyline(QPolygonF({{9, 12.5}, {2, 12.5}, {2, 4}, {6, 4}, {7.5, 5.5}, {14, 5.5}, {14, 8}}));
+      p.drawLine(QPointF(12.5, 10), QPointF(12.5, 15));
+      p.drawLine(QPointF(10, 12.5), QPointF(15, 12.5));
+      break;
+    case Sign::list:
+      for (const QPointF& at : {QPointF(3, 3), QPointF(9, 3), QPointF(3, 9), QPointF(9, 9)})
+        p.drawRect(QRectF(at, QSizeF(4, 4)));
+      break;
+    case Sign::details:
+      for (const double y : {4.0, 8.0, 12.0}) {
+        p.drawPoint(QPointF(2.5, y));
+        p.drawLine(QPointF(5.5, y), QPointF(13.5, y));
+      }
+      break;
+    case Sign::dock_out:
+      p.drawRoundedRect(QRectF(6, 2.5, 7.5, 7.5), 1, 1);
+      p.drawPolyline(QPolygonF({{3.5, 6}, {2.5, 6}, {2.5, 13.5}, {10, 13.5}, {10, 12.5}}));
+      break;
+    case Sign::keys:
+      p.drawRoundedRect(QRectF(1.5, 4, 13, 8.5), 1.5, 1.5);
+      for (const double x : {4.5, 8.0, 11.5}) p.drawPoint(QPointF(x, 7));
+      p.drawLine(QPointF(5.5, 10), QPointF(10.5, 10));
+      break;
+    case Sign::info:
+    case Sign::question:
+    case Sign::warning:
+    case Sign::error: {
+      // A badge in the colour of what is said, with its letter cut out of it.
+      const QColor color = sign == Sign::error     ? theme.error
+                           : sign == Sign::warning ? theme.warning
+                                                   : theme.accent;
+      p.setPen(Qt::NoPen);
+      p.setBrush(color);
+      p.drawEllipse(QPointF(8, 8), 7, 7);
+      p.setPen(QPen(theme.window, 1.7, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+      p.setBrush(Qt::NoBrush);
+      if (sign == Sign::question) {
+        QPainterPath hook(QPointF(5.9, 6.1));
+        hook.cubicTo(5.9, 3.2, 10.3, 3.2, 10.2, 6);
+        hook.cubicTo(10.1, 7.6, 8, 7.6, 8, 9.3);
+        p.drawPath(hook);
+        p.drawPoint(QPointF(8, 12));
+      } else if (sign == Sign::info) {
+        p.drawPoint(QPointF(8, 4.6));
+        p.drawLine(QPointF(8, 7.6), QPointF(8, 11.6));
+      } else {
+        p.drawLine(QPointF(8, 4.2), QPointF(8, 8.6));
+        p.drawPoint(QPointF(8, 11.6));
+      }
+      break;
+    }
     case Sign::tree:
       p.drawPolyline(QPolygonF({{3.5, 3}, {3.5, 12.5}, {7, 12.5}}));
       p.drawLine(QPointF(3.5, 7.5), QPointF(7, 7.5));
@@ -111,7 +184,7 @@ void draw(QPainter& p, Sign sign, const Theme& theme) {
 QIcon icon(Sign sign, const Theme& theme) {
   QIcon made;
   for (const auto mode : {QIcon::Normal, QIcon::Disabled})
-    for (const int size : {16, 32}) {
+    for (const int size : {16, 24, 32, 48, 64}) {
       QPixmap pixmap(size, size);
       pixmap.fill(Qt::transparent);
       QPainter p(&pixmap);

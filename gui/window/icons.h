@@ -24,7 +24,23 @@ enum class Sign {
   tree,
   follow,
   frame,
-  eye
+  eye,
+  file,
+  new_file,
+  computer,
+  home,
+  back,
+  forward,
+  up,
+  new_folder,
+  list,
+  details,
+  dock_out,
+  keys,
+  info,
+  question,
+  warning,
+  error
 };
 QIcon icon(Sign sign, const Theme& theme);
 

@@ -230,7 +230,7 @@ void MainWindow::update_progress() {
   else if (busy)
     state_text_->setText(running == 1 ? tr("%1 is running").arg(name)
                          : running    ? tr("%1 nodes are running").arg(running)
-                                      : tr("evaluating"));
+                                      : tr("Evaluating…"));
   else if (failed)
     state_text_->setText(failed == 1 ? tr("1 node failed") : tr("%1 nodes failed").arg(failed));
   else if (incomplete)
@@ -239,7 +239,7 @@ void MainWindow::update_progress() {
   else if (blocked)
     state_text_->setText(blocked == 1 ? tr("1 node is blocked") : tr("%1 nodes are blocked").arg(blocked));
   else
-    state_text_->setText(session_.document().nodes.empty() ? tr("no nodes") : tr("up to date"));
+    state_text_->setText(session_.document().nodes.empty() ? tr("No nodes") : tr("Up to date"));
 }
 
 void MainWindow::update_title() {

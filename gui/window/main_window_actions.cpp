@@ -1,4 +1,5 @@
 // The actions of the table, bound to what does them; menus and toolbar.
+#include <QApplication>
 #include <QDialogButtonBox>
 #include <QDockWidget>
 #include <QLabel>
@@ -144,12 +145,11 @@ void MainWindow::make_menus() {
 
 void MainWindow::update_icons() {
   const std::pair<const char*, Sign> signs[] = {
-      {"run", Sign::run}, {"cancel", Sign::stop}, {"undo", Sign::undo},   {"redo", Sign::redo},
-      {"add", Sign::add}, {"theme", Sign::theme}, {"arrange", Sign::tree}};
-  for (const auto& [name, sign] : signs) {
-    actions_.at(name)->setIcon(icon(sign, *theme_));
-    actions_.at(name)->setIconVisibleInMenu(false);
-  }
+      {"run", Sign::run},   {"cancel", Sign::stop}, {"undo", Sign::undo},       {"redo", Sign::redo},
+      {"add", Sign::add},   {"theme", Sign::theme}, {"arrange", Sign::tree},    {"new", Sign::new_file},
+      {"open", Sign::open}, {"save", Sign::save},   {"frame_all", Sign::frame}, {"keys", Sign::keys},
+      {"about", Sign::info}};
+  for (const auto& [name, sign] : signs) actions_.at(name)->setIcon(icon(sign, *theme_));
   actions_.at("theme")->setText(theme_->dark ? tr("Light &theme") : tr("Dark &theme"));
   actions_.at("theme")->setIconText(theme_->dark ? tr("Light") : tr("Dark"));
 }
@@ -185,18 +185,23 @@ void MainWindow::show_keys() {
   auto* column = new QVBoxLayout(&dialog);
   auto* page = new QTextBrowser(&dialog);
   page->setAccessibleName(tr("Keys and mouse"));
-  page->setHtml(help_page());
+  page->setHtml(help_page(*theme_));
   page->setFrameShape(QFrame::NoFrame);
   column->addWidget(page);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, &dialog);
   connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
   column->addWidget(buttons);
-  dialog.resize(720, 600);
+  column->setContentsMargins(12, 12, 12, 12);
+  column->setSpacing(10);
+  dialog.resize(780, 620);
   dialog.exec();
 }
 
 void MainWindow::about() {
-  QMessageBox box(QMessageBox::NoIcon, tr("About Kinegraph"), tr("Kinegraph"), QMessageBox::Close, this);
+  const QString version = QApplication::applicationVersion();
+  QMessageBox box(QMessageBox::Information, tr("About Kinegraph"),
+                  version.isEmpty() ? tr("Kinegraph") : tr("Kinegraph %1").arg(version), QMessageBox::Close,
+                  this);
   box.setInformativeText(
       tr("A compositor for character motion: graphs of nodes over captured and made clips. The same graphs "
          "run here and with \"kinegraph run\"."));

@@ -1,7 +1,6 @@
 // Opening, saving, running.
 #include <QDir>
 #include <QFile>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QMenu>
@@ -11,6 +10,7 @@
 #include "graph/nested.h"
 #include "gui/canvas/canvas_edits.h"
 #include "gui/panels/problem_text.h"
+#include "gui/window/ask_file.h"
 #include "gui/window/main_window.h"
 #include "gui/window/settings.h"
 #include "gui/window/wait_aside.h"
@@ -31,7 +31,7 @@ QString listed(const Diagnostics& problems) {
   for (std::size_t i = 0; i < problems.size() && i < most_listed; ++i) {
     const QString where = place_of(problems[i]), advice = advice_on(problems[i]);
     text += (where.isEmpty() ? "" : where + ": ") + problem_text(problems[i]) +
-            (advice.isEmpty() ? "" : " – " + advice) + "\n";
+            (advice.isEmpty() ? "" : " " + advice) + "\n";
   }
   if (problems.size() > most_listed)
     text +=
@@ -47,7 +47,7 @@ void MainWindow::tell(const Diagnostics& problems, const QString& title) {
     notice_->say(title + "\n" + listed(problems));
     return;
   }
-  QMessageBox box(QMessageBox::NoIcon, tr("Kinegraph"), title, QMessageBox::Close, this);
+  QMessageBox box(QMessageBox::Warning, tr("Kinegraph"), title, QMessageBox::Close, this);
   box.setInformativeText(listed(problems));
   const QString file = QString::fromStdString(problems.front().file);
   for (QLabel* label : box.findChildren<QLabel*>()) {
@@ -113,8 +113,7 @@ void MainWindow::new_graph() {
 }
 
 void MainWindow::choose_and_open() {
-  const QString path =
-      QFileDialog::getOpenFileName(this, tr("Open a graph"), session_.folder(), graph_filter());
+  const QString path = ask_to_open(this, tr("Open a graph"), session_.folder(), graph_filter());
   if (!path.isEmpty()) open(path);
 }
 
@@ -133,7 +132,7 @@ bool MainWindow::save() {
 }
 
 bool MainWindow::save_as() {
-  QString path = QFileDialog::getSaveFileName(
+  QString path = ask_where_to_save(
       this, tr("Save the graph"),
       session_.path().isEmpty() ? session_.folder() + "/untitled.kg.json" : session_.path(), graph_filter());
   if (path.isEmpty()) return false;
@@ -151,7 +150,7 @@ bool MainWindow::save_as() {
 
 bool MainWindow::may_discard() {
   if (!session_.is_modified() || session_.is_read_only() || !options_.ask) return true;
-  QMessageBox box(QMessageBox::NoIcon, tr("Kinegraph"), tr("Save the changes to %1?").arg(session_.title()),
+  QMessageBox box(QMessageBox::Question, tr("Kinegraph"), tr("Save the changes to %1?").arg(session_.title()),
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
   box.setInformativeText(tr("Without saving they are lost."));
   box.setDefaultButton(QMessageBox::Save);

@@ -1,7 +1,6 @@
 // Several graphs in one window: their tabs, graphs inside graphs.
 #include <QDir>
 #include <QFile>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QPushButton>
@@ -10,6 +9,7 @@
 #include "graph/collapse.h"
 #include "graph/file/write.h"
 #include "graph/nested.h"
+#include "gui/window/ask_file.h"
 #include "gui/window/main_window.h"
 
 namespace kinegraph {
@@ -73,9 +73,9 @@ void MainWindow::collapse_selected() {
         return Edit{};
       }))
     return;
-  QString path = QFileDialog::getSaveFileName(this, tr("The new graph file"),
-                                              QDir(session_.folder()).filePath("part.kg.json"),
-                                              tr("Kinegraph graphs (*.kg.json)"));
+  QString path =
+      ask_where_to_save(this, tr("The new graph file"), QDir(session_.folder()).filePath("part.kg.json"),
+                        tr("Kinegraph graphs (*.kg.json)"));
   if (path.isEmpty()) return;
   if (!path.endsWith(".kg.json")) path += ".kg.json";
   options.file = session_.written_path(path).toStdString();
@@ -95,7 +95,7 @@ bool MainWindow::save_what_is_inside() {
   if (pages.empty() || !options_.ask) return true;
   QStringList names;
   for (int page : pages) names << session_.page_title(page);
-  QMessageBox box(QMessageBox::NoIcon, tr("Kinegraph"), tr("Save %1 before running?").arg(names.join(", ")),
+  QMessageBox box(QMessageBox::Question, tr("Kinegraph"), tr("Save %1 before running?").arg(names.join(", ")),
                   QMessageBox::Save | QMessageBox::Ignore | QMessageBox::Cancel, this);
   box.button(QMessageBox::Ignore)->setText(tr("Run unsaved"));
   box.setInformativeText(

@@ -1,23 +1,36 @@
 #include "gui/window/notice_bar.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QStyle>
 
 namespace kinegraph {
 
 NoticeBar::NoticeBar(QWidget* parent)
-    : QFrame(parent), label_(new QLabel(this)), layout_(new QHBoxLayout(this)) {
+    : QFrame(parent), sign_(new QLabel(this)), label_(new QLabel(this)), layout_(new QHBoxLayout(this)) {
   setObjectName("notice_bar");
   setAccessibleName(tr("Notice"));
   layout_->setContentsMargins(12, 6, 8, 6);
   label_->setObjectName("notice_text");
   label_->setWordWrap(true);
   label_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  sign_->setFixedSize(16, 16);
+  layout_->setSpacing(8);
+  layout_->addWidget(sign_);
   layout_->addWidget(label_, 1);
   timer_.setSingleShot(true);
   connect(&timer_, &QTimer::timeout, this, &QWidget::hide);
   hide();
+}
+
+// Its sign is drawn in the colours of the theme.
+void NoticeBar::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::StyleChange)
+    sign_->setPixmap(
+        style()->standardIcon(QStyle::SP_MessageBoxInformation).pixmap(QSize(16, 16), devicePixelRatioF()));
+  QFrame::changeEvent(event);
 }
 
 void NoticeBar::say(const QString& message, std::vector<Answer> answers, int seconds) {

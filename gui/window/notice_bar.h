@@ -23,7 +23,11 @@ class NoticeBar : public QFrame {
   // `seconds` 0 = until it is answered or replaced.
   void say(const QString& message, std::vector<Answer> answers = {}, int seconds = 0);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
+  QLabel* sign_;
   QLabel* label_;
   QHBoxLayout* layout_;
   std::vector<QWidget*> buttons_;

@@ -3,10 +3,10 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDir>
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QLocale>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTableWidget>
@@ -15,6 +15,7 @@
 #include "graph/nested.h"
 #include "gui/canvas/canvas_edits.h"
 #include "gui/panels/files_panel.h"
+#include "gui/window/ask_file.h"
 
 namespace kinegraph {
 namespace {
@@ -81,7 +82,7 @@ RelinkDialog::RelinkDialog(Session& session, const KnownFiles& known, std::vecto
     table_->setItem(row, 1, file);
     auto* choice = new QComboBox(table_);
     choice->setAccessibleName(tr("File for %1").arg(QString::fromStdString(missing_[i].node)));
-    choice->addItem(tr("nothing found yet"));
+    choice->addItem(tr("Nothing found yet"));
     connect(choice, &QComboBox::currentIndexChanged, this, &RelinkDialog::update_state);
     table_->setCellWidget(row, 2, choice);
     choices_.push_back(choice);
@@ -107,7 +108,7 @@ RelinkDialog::RelinkDialog(Session& session, const KnownFiles& known, std::vecto
   connect(buttons, &QDialogButtonBox::accepted, this, &RelinkDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &RelinkDialog::reject);
   connect(other, &QPushButton::clicked, this, [this] {
-    const QString folder = QFileDialog::getExistingDirectory(this, tr("Look in a folder"), session_.folder());
+    const QString folder = ask_for_folder(this, tr("Look in a folder"), session_.folder());
     if (!folder.isEmpty()) search({folder});
   });
   connect(stop_, &QPushButton::clicked, this, [this] {
@@ -116,6 +117,7 @@ RelinkDialog::RelinkDialog(Session& session, const KnownFiles& known, std::vecto
   QStringList folders{session_.folder()};
   if (QDir up(session_.folder()); up.cdUp() && !up.isRoot()) folders << up.absolutePath();
   if (const QString examples = examples_folder(); !examples.isEmpty()) folders << examples;
+  if (!choices_.empty()) choices_.front()->setFocus();
   search(folders);
 }
 
@@ -125,7 +127,7 @@ void RelinkDialog::search(const QStringList& folders) {
   search_ = std::make_unique<FileSearch>(std::move(wanted), folders);
   connect(search_.get(), &FileSearch::found, this, &RelinkDialog::add_found);
   connect(search_.get(), &FileSearch::looked_at, this,
-          [this](int files) { state_->setText(tr("%1 files looked at").arg(files)); });
+          [this](int files) { state_->setText(tr("%1 files looked at").arg(QLocale().toString(files))); });
   connect(search_.get(), &QThread::finished, this, &RelinkDialog::update_state);
   search_->start();
   update_state();
@@ -138,7 +140,7 @@ void RelinkDialog::add_found(int row, const QString& path, bool same) {
   if (same) shown += tr("  · same content");
   choice->addItem(shown, path);
   choice->setItemData(choice->count() - 1, QDir::toNativeSeparators(path), Qt::ToolTipRole);
-  choice->setItemText(0, tr("leave it missing"));
+  choice->setItemText(0, tr("Leave it missing"));
   choice->setItemData(choice->count() - 1, same, same_content);
   // The same content is surer than the same name, and what is nearer is looked at first.
   if (choice->currentIndex() == 0 || (same && !choice->currentData(same_content).toBool()))

@@ -143,55 +143,89 @@ QString Theme::style_sheet() const {
   return QString(R"(
 QMainWindow::separator { background: %1; width: 4px; height: 4px; }
 QMainWindow::separator:hover { background: %5; }
-QDockWidget { titlebar-close-icon: none; font-weight: 600; color: %4; }
+QDockWidget { font-weight: 600; color: %4; }
 QDockWidget::title { background: %1; padding: 6px 8px; border-bottom: 1px solid %3; }
+QDockWidget::float-button, QDockWidget::close-button { border: none; border-radius: 3px; padding: 1px; }
+QDockWidget::float-button:hover, QDockWidget::close-button:hover { background: %2; }
 QToolTip { background: %2; color: %4; border: 1px solid %3; padding: 4px; }
-QMenuBar { background: %1; } QMenuBar::item { padding: 4px 10px; background: transparent; }
+QMenuBar { background: %1; padding: 0px 6px; }
+QMenuBar::item { padding: 4px 10px; background: transparent; border-radius: 3px; }
 QMenuBar::item:selected, QMenu::item:selected { background: %6; color: %4; }
-QMenu { background: %2; border: 1px solid %3; padding: 4px; } QMenu::item { padding: 5px 28px 5px 12px; border-radius: 3px; }
+QMenu { background: %2; border: 1px solid %3; padding: 4px; }
+QMenu::item { padding: 5px 32px 5px 12px; border-radius: 3px; min-height: 16px; }
+QMenu::icon { padding-left: 8px; }
 QMenu::separator { height: 1px; background: %3; margin: 4px 8px; }
+QToolBar::separator { background: %3; width: 1px; margin: 6px 6px; }
 QToolBar { background: %1; border: none; border-bottom: 1px solid %3; spacing: 4px; padding: 3px 6px; }
 QToolButton { border: 1px solid transparent; border-radius: 4px; padding: 4px 8px; }
-QToolBar#viewer_bar { spacing: 1px; padding: 3px 4px; } QToolBar#viewer_bar > QToolButton { padding: 4px 5px; }
-QToolButton:hover { background: %2; } QToolButton:checked { background: %6; }
+QToolBar#viewer_bar { spacing: 1px; padding: 3px 4px; }
+QToolBar#viewer_bar > QToolButton { padding: 4px 5px; }
+QToolButton:hover { background: %2; }
+QToolButton:checked { background: %6; }
 QPushButton { background: %2; border: 1px solid %3; border-radius: 4px; padding: 5px 14px; }
-QPushButton:hover { border-color: %5; } QPushButton:default { border-color: %5; } QPushButton:disabled { color: %7; }
+QPushButton:hover { border-color: %5; }
+QPushButton:default { border-color: %5; }
+QPushButton:disabled { color: %7; }
 QLineEdit, QPlainTextEdit, QComboBox { background: %8; border: 1px solid %3; border-radius: 4px; padding: 3px 6px; selection-background-color: %6; }
 QComboBox::drop-down { border: none; width: 18px; }
 QComboBox::down-arrow { image: url(:/kinegraph/arrow_down.png); width: 10px; height: 10px; }
 QComboBox QAbstractItemView { background: %2; border: 1px solid %3; selection-background-color: %6; outline: none; }
 kinegraph--ParamField QToolButton { background: %2; border: 1px solid %3; padding: 3px 8px; }
 kinegraph--ParamField QToolButton:hover { border-color: %5; }
-QToolButton#row_menu { padding: 2px 0px; color: %7; } QToolButton#row_menu:hover { color: %4; }
+QToolButton#row_menu { padding: 2px 0px; color: %7; }
+QToolButton#row_menu:hover { color: %4; }
 QFileDialog QToolButton { padding: 3px; }
 QLabel#faint { color: %7; }
+QLabel#param_help { color: %7; border-top: 1px solid %3; padding-top: 6px; }
+QLabel#node_state { background: %2; border-radius: 4px; padding: 6px 8px; }
 QMessageBox QLabel#qt_msgbox_label { font-weight: 600; min-width: 300px; }
+QMessageBox QLabel#qt_msgboxex_icon_label { margin: 2px 6px 0px 6px; }
 QLineEdit#node_name { font-weight: 600; }
 QFrame#search_box { background: %2; border: 1px solid %5; border-radius: 6px; }
 QFrame#notice_bar { background: %2; border-bottom: 2px solid %5; }
 QScrollArea#parameter_rows, QScrollArea#parameter_rows > QWidget > QWidget { background: transparent; }
 QScrollArea#examples, QScrollArea#examples > QWidget > QWidget { background: transparent; }
-QCheckBox:focus { border: 1px solid %5; border-radius: 3px; }
-QLineEdit:focus, QPlainTextEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QTreeView:focus, QListView:focus, QTableView:focus, QSlider:focus { border: 1px solid %5; }
-QPushButton:focus { background: %6; } QTextBrowser { background: %8; border: 1px solid transparent; } QTextBrowser:focus { border-color: %5; }
-QTreeView, QListView, QTableView { background: %8; border: 1px solid %3; border-radius: 4px; }
-QTreeView::indicator { width: 12px; height: 12px; border: 1px solid %7; border-radius: 3px; }
-QTreeView::indicator:checked { background: %5; border-color: %5; }
-QHeaderView::section { background: %1; border: none; border-bottom: 1px solid %3; padding: 4px 6px; }
+QCheckBox { spacing: 6px; padding: 2px; border: 1px solid transparent; border-radius: 3px; }
+QCheckBox:disabled { color: %7; }
+QCheckBox:focus { border-color: %5; }
+QLineEdit:focus, QPlainTextEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QTreeView:focus, QListView:focus, QTableView:focus { border: 1px solid %5; }
+QPushButton:focus { background: %6; }
+QTextBrowser { background: %8; border: 1px solid transparent; }
+QTextBrowser:focus { border-color: %5; }
+QSlider { border: 1px solid transparent; border-radius: 4px; min-height: 20px; }
+QSlider:focus { border-color: %5; }
+QSlider::groove:horizontal { height: 4px; border-radius: 2px; background: %3; margin: 0px 2px; }
+QSlider::sub-page:horizontal { height: 4px; border-radius: 2px; background: %5; margin: 0px 2px; }
+QSlider::handle:horizontal { width: 12px; height: 12px; margin: -5px 0px; border-radius: 6px; background: %9; border: 1px solid %7; }
+QSlider::handle:horizontal:hover { border-color: %5; }
+QSlider::sub-page:horizontal:disabled, QSlider::handle:horizontal:disabled { background: %7; }
+QTreeView, QListView, QTableView { background: %8; border: 1px solid %3; border-radius: 4px; alternate-background-color: %2; }
+QTableView { gridline-color: %3; }
+QTreeView::item, QTableView::item { border: none; padding: 3px 8px; min-height: 16px; }
+QTreeView::item:selected, QTableView::item:selected, QListView::item:selected { background: %6; color: %4; }
+QTableView QLineEdit, QTreeView QLineEdit, QTableView QComboBox { padding: 0px 6px; border-radius: 0px; }
+QHeaderView { background: %1; }
+QHeaderView::section { background: %1; color: %7; border: none; border-bottom: 1px solid %3; padding: 4px 11px; }
 QTabBar::tab { padding: 6px 12px; border: none; border-bottom: 2px solid transparent; color: %7; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
-QTabBar::close-button { image: url(:/kinegraph/close.png); border-radius: 3px; margin: 2px; } QTabBar::close-button:hover { background: %3; }
+QTabBar::close-button { image: url(:/kinegraph/close.png); border-radius: 3px; margin: 2px; }
+QTabBar::close-button:hover { background: %3; }
 QTabBar#pages { background: %1; }
 QTabBar::tab:hover { color: %4; }
 QTabBar::tab:focus { border-bottom-color: %5; color: %5; }
 QTabBar::tab:selected { border-bottom-color: %5; color: %4; }
 QStatusBar { background: %1; border-top: 1px solid %3; }
-QScrollBar:vertical { width: 10px; background: transparent; } QScrollBar:horizontal { height: 10px; background: transparent; }
-QScrollBar::handle { background: %3; border-radius: 5px; min-height: 24px; min-width: 24px; } QScrollBar::handle:hover { background: %7; }
+QScrollBar:vertical { width: 10px; background: transparent; }
+QScrollBar:horizontal { height: 10px; background: transparent; }
+QScrollBar::handle { background: %3; border-radius: 4px; min-height: 24px; min-width: 24px; margin: 1px; }
+QScrollBar::handle:hover { background: %7; }
 QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
-QProgressBar { background: %8; border: 1px solid %3; border-radius: 4px; text-align: center; } QProgressBar::chunk { background: %6; border-radius: 3px; }
+QScrollBar::add-page, QScrollBar::sub-page { background: none; }
+QProgressBar { background: %8; border: 1px solid %3; border-radius: 4px; text-align: center; }
+QProgressBar::chunk { background: %5; border-radius: 3px; }
 )")
-      .arg(c(window), c(raised), c(line), c(text), c(accent), c(selection), c(faint_text), c(panel));
+      .arg(c(window), c(raised), c(line), c(text), c(accent), c(selection), c(faint_text), c(panel))
+      .arg(c(dark ? text : raised));
 }
 
 const Theme& dark_theme() {

@@ -37,7 +37,7 @@ TEST(EditorActions, MenusAndHelpSayAllOfThem) {
   std::set<QString> in_menus;
   for (QMenu* menu : editor.window.menuBar()->findChildren<QMenu*>())
     for (const QAction* action : menu->actions()) in_menus.insert(action->objectName());
-  const QString help = help_page();
+  const QString help = help_page(dark_theme());
   for (const ActionRow& row : all_actions()) {
     if (*row.menu) {
       EXPECT_TRUE(in_menus.count(QString("action_") + row.name)) << row.name;

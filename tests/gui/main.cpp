@@ -4,6 +4,7 @@
 #include <QApplication>
 #include <QStandardPaths>
 
+#include "gui/window/editor_style.h"
 #include "tests/gui/kill_test.h"
 
 int main(int argc, char** argv) {
@@ -11,7 +12,7 @@ int main(int argc, char** argv) {
   if (testing::GTEST_FLAG(list_tests)) return RUN_ALL_TESTS();
   QStandardPaths::setTestModeEnabled(true);
   QApplication application(argc, argv);
-  QApplication::setStyle("Fusion");
+  QApplication::setStyle(new kinegraph::EditorStyle);
   const QStringList words = QApplication::arguments();
   if (words.size() == 4 && words[1] == kinegraph::editor_test::edit_until_killed)
     return kinegraph::editor_test::run_until_killed(words[2], words[3]);

@@ -21,6 +21,7 @@
 #include "graph/file/write.h"
 #include "gui/viewer/shown_motion.h"
 #include "gui/viewer/viewer.h"
+#include "gui/window/editor_style.h"
 #include "gui/window/main_window.h"
 #include "nodes/all_nodes.h"
 
@@ -398,7 +399,7 @@ void five_bodies() {
 int main(int argc, char** argv) {
   QStandardPaths::setTestModeEnabled(true);
   QApplication application(argc, argv);
-  QApplication::setStyle("Fusion");
+  QApplication::setStyle(new kinegraph::EditorStyle);
   const std::string which = argc > 1 ? argv[1] : "";
   if (which.empty() || which == "blocks") kinegraph::never_blocks();
   if (which.empty() || which == "nodes") kinegraph::many_nodes();

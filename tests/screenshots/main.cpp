@@ -1,9 +1,9 @@
 // Writes the pictures of docs/editor: every port type, node state, dock, dialog, error and empty state.
-//   editor_screenshots FOLDER dark|light|large|qpainter
+//   editor_screenshots FOLDER dark|light|large|qpainter [PART…]
+// PART: graph, gestures, viewer, docks, menus, troubles; all of them where none is given.
 #include <QCheckBox>
 #include <QMessageBox>
 #include <QStandardPaths>
-#include <QStyleFactory>
 #include <QToolButton>
 #include <cstdio>
 
@@ -12,6 +12,7 @@
 #include "gui/canvas/canvas_edits.h"
 #include "gui/components/components_grid.h"
 #include "gui/window/changes_dialog.h"
+#include "gui/window/editor_style.h"
 #include "tests/screenshots/shots.h"
 
 namespace kinegraph::shots {
@@ -292,9 +293,10 @@ int main(int argc, char** argv) {
   QStandardPaths::setTestModeEnabled(true);
   QApplication application(argc, argv);
   QApplication::setApplicationName("kinegraph-editor");
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  QApplication::setApplicationVersion(KINEGRAPH_VERSION);
+  QApplication::setStyle(new kinegraph::EditorStyle);
   if (argc < 3) {
-    std::fprintf(stderr, "editor_screenshots FOLDER dark|light|large|qpainter\n");
+    std::fprintf(stderr, "editor_screenshots FOLDER dark|light|large|qpainter [PART…]\n");
     return 2;
   }
   using namespace kinegraph;
@@ -322,11 +324,13 @@ int main(int argc, char** argv) {
   }
   const Theme& theme = what == "light" ? light_theme() : dark_theme();
   const QString end = what == "light" ? "_light" : "";
-  shots::graph_pictures(theme, into, end);
-  shots::gestures(theme, into, end);
-  shots::viewer_pictures(theme, into, end);
-  shots::docks(theme, into, end);
-  shots::menus_and_messages(theme, into, end);
-  shots::troubles(theme, into, end);
+  const QStringList wanted = QApplication::arguments().mid(3);
+  using Take = void (*)(const Theme&, const QDir&, const QString&);
+  const std::pair<const char*, Take> parts[] = {
+      {"graph", shots::graph_pictures},     {"gestures", shots::gestures},
+      {"viewer", shots::viewer_pictures},   {"docks", shots::docks},
+      {"menus", shots::menus_and_messages}, {"troubles", shots::troubles}};
+  for (const auto& [part, take] : parts)
+    if (wanted.isEmpty() || wanted.contains(part)) take(theme, into, end);
   return 0;
 }

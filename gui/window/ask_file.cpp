@@ -1,0 +1,54 @@
+#include "gui/window/ask_file.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHeaderView>
+#include <QSplitter>
+#include <QTreeView>
+
+namespace kinegraph {
+namespace {
+
+QString chosen(QFileDialog& dialog, const QString& start, const QString& filter) {
+  const QFileInfo at(start);
+  dialog.setDirectory(at.isDir() ? at.absoluteFilePath() : at.absolutePath());
+  if (!filter.isEmpty()) dialog.setNameFilters(filter.split(";;"));
+  const bool folder = dialog.fileMode() == QFileDialog::Directory;
+  if (!folder && !at.isDir() && (at.exists() || dialog.acceptMode() == QFileDialog::AcceptSave))
+    dialog.selectFile(at.fileName());
+  dialog.resize(760, 480);
+  // Qt's own dialog; a system's has none of these.
+  if (auto* files = dialog.findChild<QTreeView*>("treeView")) {
+    files->header()->setStretchLastSection(false);
+    files->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    files->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+    files->setColumnHidden(2, true);  // the kind is told by the name's end
+  }
+  if (auto* split = dialog.findChild<QSplitter*>("splitter")) split->setSizes({150, 590});
+  return dialog.exec() && !dialog.selectedFiles().isEmpty() ? dialog.selectedFiles().first() : QString();
+}
+
+}  // namespace
+
+QString ask_to_open(QWidget* parent, const QString& title, const QString& start, const QString& filter) {
+  QFileDialog dialog(parent, title);
+  dialog.setFileMode(QFileDialog::ExistingFile);
+  return chosen(dialog, start, filter);
+}
+
+QString ask_where_to_save(QWidget* parent, const QString& title, const QString& start,
+                          const QString& filter) {
+  QFileDialog dialog(parent, title);
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setFileMode(QFileDialog::AnyFile);
+  return chosen(dialog, start, filter);
+}
+
+QString ask_for_folder(QWidget* parent, const QString& title, const QString& start) {
+  QFileDialog dialog(parent, title);
+  dialog.setFileMode(QFileDialog::Directory);
+  dialog.setOption(QFileDialog::ShowDirsOnly);
+  return chosen(dialog, start, {});
+}
+
+}  // namespace kinegraph
