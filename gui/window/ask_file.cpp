@@ -3,6 +3,8 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHeaderView>
+#include <QLineEdit>
+#include <QListView>
 #include <QSplitter>
 #include <QTreeView>
 
@@ -11,11 +13,11 @@ namespace {
 
 QString chosen(QFileDialog& dialog, const QString& start, const QString& filter) {
   const QFileInfo at(start);
-  dialog.setDirectory(at.isDir() ? at.absoluteFilePath() : at.absolutePath());
   if (!filter.isEmpty()) dialog.setNameFilters(filter.split(";;"));
+  dialog.setDirectory(at.isDir() ? at.absoluteFilePath() : at.absolutePath());
   const bool folder = dialog.fileMode() == QFileDialog::Directory;
   if (!folder && !at.isDir() && (at.exists() || dialog.acceptMode() == QFileDialog::AcceptSave))
-    dialog.selectFile(at.fileName());
+    dialog.selectFile(at.absoluteFilePath());
   dialog.resize(760, 480);
   // Qt's own dialog; a system's has none of these.
   if (auto* files = dialog.findChild<QTreeView*>("treeView")) {
@@ -23,6 +25,12 @@ QString chosen(QFileDialog& dialog, const QString& start, const QString& filter)
     files->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
     files->header()->setSectionResizeMode(0, QHeaderView::Stretch);
     files->setColumnHidden(2, true);  // the kind is told by the name's end
+  }
+  // What is typed or pasted replaces the name that is offered, and the one that is marked in the list.
+  if (auto* name = dialog.findChild<QLineEdit*>("fileNameEdit")) {
+    name->selectAll();
+    if (auto* list = dialog.findChild<QListView*>("listView"))
+      QObject::connect(name, &QLineEdit::textEdited, list, [list] { list->selectionModel()->clear(); });
   }
   if (auto* split = dialog.findChild<QSplitter*>("splitter")) split->setSizes({150, 590});
   return dialog.exec() && !dialog.selectedFiles().isEmpty() ? dialog.selectedFiles().first() : QString();
