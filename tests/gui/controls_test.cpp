@@ -171,7 +171,7 @@ TEST_P(EditorFocus, IsSeenAtEveryStopOfEveryDialog) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Themes, EditorFocus, testing::Bool(),
-                         [](const auto& info) { return info.param ? "Light" : "Dark"; });
+                         [](const auto& theme) { return theme.param ? "Light" : "Dark"; });
 
 // Every control below a widget says what it is; parts of a control that has a name need none.
 void expect_names(const QWidget& room) {

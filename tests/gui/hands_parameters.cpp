@@ -107,7 +107,7 @@ bool joints_in_tree(Hands& hands) {
   QWidget* row = row_of(hands, Kind::pattern);
   auto* button = row ? row->findChild<QToolButton*>() : nullptr;
   if (!button) return false;
-  QTest::qWaitFor([&] { return !hands.window.is_evaluating(); }, 5000);
+  (void)QTest::qWaitFor([&] { return !hands.window.is_evaluating(); }, 5000);
   bool ticked = false;
   hands.when_asked([&](QWidget& menu) {
     auto* tree = menu.findChild<QTreeWidget*>();

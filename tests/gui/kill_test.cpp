@@ -42,9 +42,9 @@ void put(const QString& path, const std::string& bytes) {
 // Adds a node, waits for the word, and saves.
 void edit_and_save(Editor& editor, const QDir& folder) {
   editor.add("gait");
-  QTest::qWaitFor([&] { return QFile::exists(editor.session().autosave_path()); }, 20000);
+  (void)QTest::qWaitFor([&] { return QFile::exists(editor.session().autosave_path()); }, 20000);
   put(folder.filePath("ready"), editor.session().text());
-  QTest::qWaitFor([&] { return folder.exists("go"); }, 60000);
+  (void)QTest::qWaitFor([&] { return folder.exists("go"); }, 60000);
   editor.key(Qt::Key_S, Qt::ControlModifier);
 }
 
@@ -154,7 +154,7 @@ struct Strace {
       return;
     }
     QByteArray said;
-    QTest::qWaitFor(
+    (void)QTest::qWaitFor(
         [&] {
           said += process.readAllStandardError();
           return said.contains("attached") || process.state() == QProcess::NotRunning;
