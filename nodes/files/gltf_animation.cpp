@@ -144,6 +144,7 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
   std::set<double> times;
   if (clip) {
     for (const tinygltf::AnimationChannel& channel : clip->channels) {
+      work.check();
       if (channel.target_node < 0 || channel.target_node >= static_cast<int>(model.nodes.size())) continue;
       if (channel.sampler < 0 || channel.sampler >= static_cast<int>(clip->samplers.size()))
         bad_gltf("an animation's channel has no sampler");
@@ -157,8 +158,11 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
         if (width == 0) continue;
       }
       const tinygltf::AnimationSampler& keys = clip->samplers[channel.sampler];
-      channels.push_back({channel.target_node, channel.target_path, &keys, key_times(keys.input), width});
-      times.insert(channels.back().times->begin(), channels.back().times->end());
+      const Times its_times = key_times(keys.input);
+      const bool known = std::any_of(channels.begin(), channels.end(),
+                                     [&](const Channel& other) { return other.times == its_times; });
+      channels.push_back({channel.target_node, channel.target_path, &keys, its_times, width});
+      if (!known) times.insert(its_times->begin(), its_times->end());
     }
   } else {
     work.report(info("no-clip", "the file has no animation; the motion is one frame at rest"));
@@ -183,6 +187,7 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
   for (const Channel& channel : channels) {
     const int joint = nodes.joint_of_node[channel.node];
     if (joint < 0 || channel.path != "translation") continue;
+    work.check();
     const Vec3 rest = skeleton.joints[joint].offset;
     const Sampler sampler = channel.sampler(file);
     for (std::size_t t = 0; t < frames && !translates[joint]; ++t) {

@@ -1,10 +1,6 @@
 // Writing and reading long files can be stopped: both ask as they go on, and what they throw comes out.
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
-
 #include "nodes/files/motion_file.h"
 #include "tests/nodes/components/clips.h"
 #include "tests/nodes/files/plain_files.h"
@@ -19,17 +15,12 @@ class Counted : public Alone {
   explicit Counted(long last = -1) : last_(last) {}
   void check() override {
     if (++asked == last_) throw Cancelled();
-    const auto now = std::chrono::steady_clock::now();
-    longest = std::max(longest, std::chrono::duration<double, std::milli>(now - before_).count());
-    before_ = now;
   }
   void progress(double) override { check(); }
   long asked = 0;
-  double longest = 0;  // ms between two; only ever printed
 
  private:
   long last_;
-  std::chrono::steady_clock::time_point before_ = std::chrono::steady_clock::now();
 };
 
 struct Long {
@@ -41,11 +32,9 @@ void PrintTo(const Long& one, std::ostream* out) {
   *out << one.name;
 }
 
-// Some megabytes of each; more where KINEGRAPH_STOPPING_SECONDS says so.
+// Some megabytes of each.
 const ValuePtr& value_of(const std::string& port) {
-  static const char* given = std::getenv("KINEGRAPH_STOPPING_SECONDS");
-  static const double seconds = given ? std::atof(given) : 40;
-  static const auto motion = std::make_shared<const Motion>(gait("walk", seconds, 120));
+  static const auto motion = std::make_shared<const Motion>(gait("walk", 40, 120));
   static const ValuePtr points = points_of_motion(*motion);
   static const ValuePtr components = [] {
     Alone work;
@@ -85,8 +74,6 @@ TEST_P(Stopping, AWriterAsksAllAlongAndEndsWhenItIsTold) {
   const std::string bytes = written(counted);
   ASSERT_GT(bytes.size(), 400'000u);
   EXPECT_GE(counted.asked, least_for(bytes.size()));
-  std::printf("%zu bytes: asked %ld times, at most %.1f ms apart\n", bytes.size(), counted.asked,
-              counted.longest);
   for (const long last : {1L, counted.asked / 2, counted.asked}) {
     Counted stopped(last);
     EXPECT_THROW(written(stopped), Cancelled) << last;
@@ -103,7 +90,6 @@ TEST_P(Stopping, AReaderAsksAllAlongAndEndsWhenItIsTold) {
   Counted counted;
   read_motion_file(GetParam().path, {}, files, counted);
   EXPECT_GE(counted.asked, least_for(size));
-  std::printf("%zu bytes: asked %ld times, at most %.1f ms apart\n", size, counted.asked, counted.longest);
   for (const long last : {1L, counted.asked / 2, counted.asked}) {
     Counted stopped(last);
     EXPECT_THROW(read_motion_file(GetParam().path, {}, files, stopped), Cancelled) << last;
