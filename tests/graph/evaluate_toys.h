@@ -38,10 +38,12 @@ struct Trace {
     for (const auto& [tag, count] : counts) all += count;
     return all;
   }
-  // Whether `tag` began within some seconds: for nodes that must run at the same time.
+  // Whether `tag` began: for nodes that must run at the same time. A second thread comes in microseconds, but
+  // on a machine with twenty times more to do than it has processors one of low priority was seen to wait 19 s
+  // for its turn; so long that only a thread that never comes is too late.
   bool wait_for(const std::string& tag) {
     std::unique_lock lock(mutex);
-    return changed.wait_for(lock, std::chrono::seconds(20), [&] { return counts[tag] > 0; });
+    return changed.wait_for(lock, std::chrono::seconds(240), [&] { return counts[tag] > 0; });
   }
 
   std::mutex mutex;
