@@ -9,6 +9,7 @@
 #include <set>
 
 #include "nodes/components/alignment.h"
+#include "nodes/components/cloud_caption.h"
 #include "nodes/components/rebuild.h"
 #include "nodes/motion/body.h"
 #include "nodes/motion/joint_pattern.h"
@@ -243,6 +244,7 @@ std::string what_moves(const Components& components, std::size_t entry) {
         text += (text.empty() ? "" : " and ") + region.label;
     return text;
   }
+  if (is_cloud(components)) return cloud_caption(components, entry);
   const auto moved = moved_by(components, entry);
   for (std::size_t i = 0; i < moved.size() && i < 3; ++i)
     if (moved[i].amount > 0) text += (text.empty() ? "" : ", ") + moved[i].label;

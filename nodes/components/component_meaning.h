@@ -38,7 +38,8 @@ std::vector<Moved> moved_by(const Components& components, std::size_t entry);
 // "head", "arms" and "legs", those that there are; empty for Points and for skeletons without a body.
 std::vector<Moved> regions_moved_by(const Components& components, std::size_t entry);
 // What a caption names: the regions that turn at least two thirds as much as the first, "trunk and arms";
-// where there are no regions the three joints or points that move most.
+// where there are no regions the three joints or points that move most, and of a cloud which part of it
+// (cloud_caption.h).
 std::string what_moves(const Components& components, std::size_t entry);
 
 struct MeaningParams {
