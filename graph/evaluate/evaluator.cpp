@@ -4,19 +4,21 @@
 #include <utility>
 
 #include "graph/evaluate/cpu_path.h"
+#include "graph/evaluate/demand.h"
 #include "graph/evaluate/run.h"
 
 namespace kinegraph {
 
 struct Evaluator::State {
   State(const Registry& registry, FileStore& files, MemoryCache* memory, DiskCache* disk)
-      : ledger(memory), world{registry, files, memory, disk, ledger, cpu_path()} {}
+      : ledger(memory), world{registry, files, memory, disk, ledger, under_way, cpu_path()} {}
 
   MemoryLedger ledger;
+  UnderWay under_way;
   RunWorld world;
-  std::mutex running;
   mutable std::mutex mutex;
-  std::map<Key, ValuePtr> kept;  // what the last run's targets asked for
+  std::uint64_t runs = 0;        // begun so far
+  std::map<Key, ValuePtr> kept;  // what the targets of the last of them asked for
 
   // The keys of a node and all before it.
   NodeKeys keys_to(const Plan& plan, int node) const {
@@ -36,16 +38,17 @@ void Evaluator::set_cpu_path(std::string name) {
 
 RunLog Evaluator::run(const Plan& plan, const std::vector<Target>& targets, const RunOptions& options,
                       const RunCallbacks& callbacks, StopToken* stop) {
-  std::lock_guard one(state_->running);
   std::map<Key, ValuePtr> kept;
+  std::uint64_t own = 0;
   {
     std::lock_guard lock(state_->mutex);
     std::swap(kept, state_->kept);
+    own = ++state_->runs;
   }
   kept.clear();  // before the run, which may need the memory
   auto log = run_plan(state_->world, plan, targets, options, callbacks, stop, kept);
   std::lock_guard lock(state_->mutex);
-  state_->kept = std::move(kept);
+  if (own == state_->runs) state_->kept = std::move(kept);
   return log;
 }
 
@@ -62,6 +65,32 @@ ValuePtr Evaluator::value(const Plan& plan, const std::string& node, const std::
   if (!state_->world.memory) return nullptr;
   auto cached = state_->world.memory->find(*key);
   return cached ? cached->value : nullptr;
+}
+
+std::map<std::string, Key> Evaluator::wanted_under_way(const Plan& plan, const std::vector<Target>& targets,
+                                                       const std::function<void()>& check) const {
+  const std::set<Key> at_work = state_->under_way.keys();
+  std::map<std::string, Key> wanted;
+  if (at_work.empty()) return wanted;
+  const auto& world = state_->world;
+  auto demands = reached_by(plan, targets);
+  NodeKeys keys(plan, world.registry, world.files, world.cpu_path, check);
+  for (int node : demands.order) keys.make(node);
+  demand(plan, keys, world.memory, world.disk, demands);
+  for (int node : demands.order) {
+    const auto& key = keys.of(node).key;
+    if (demands.nodes[static_cast<std::size_t>(node)].runs && key && at_work.contains(*key))
+      wanted.emplace(plan.nodes[static_cast<std::size_t>(node)].name, *key);
+  }
+  return wanted;
+}
+
+bool Evaluator::is_computing() const {
+  return !state_->under_way.keys().empty();
+}
+
+void Evaluator::wake() {
+  state_->under_way.wake();
 }
 
 Evaluator::Explained Evaluator::explain(const Plan& plan, const std::string& node,

@@ -2,6 +2,7 @@
 // time-out.
 #pragma once
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -32,15 +33,23 @@ class Evaluator {
   Evaluator(const Registry& registry, FileStore& files, MemoryCache* memory, DiskCache* disk);
   ~Evaluator();
 
-  // Blocking; call it from a thread that may wait, one run at a time. Each call may use its own plan; caches
-  // carry over. Throws nothing that a node did: it is all in the log. Targets that aren't there are errors in
-  // the log's diagnostics.
+  // Blocking; call it from a thread that may wait. Each call may use its own plan; caches carry over. Of
+  // several runs at once none computes what another is at: it waits and takes that from the memory cache, and
+  // a run that is stopped while it waits sees so at wake(). Throws nothing that a node did: it is all in the
+  // log. Targets that aren't there are errors in the log's diagnostics.
   RunLog run(const Plan& plan, const std::vector<Target>& targets, const RunOptions& options,
              const RunCallbacks& callbacks = {}, StopToken* stop = nullptr);
 
-  // A value that the last run made and that a target asked for ("node.port"), or that the memory cache still
-  // has; null where there is none.
+  // A value that the run begun last made and that a target asked for ("node.port"), or that the memory cache
+  // still has; null where there is none.
   ValuePtr value(const Plan& plan, const std::string& node, const std::string& port) const;
+
+  // What these targets will ask for that a run is computing just now, by the node's name in this plan: what
+  // StopToken::stop_all_but() is to keep for them. `check` is called now and then, and throws to stop.
+  std::map<std::string, Key> wanted_under_way(const Plan& plan, const std::vector<Target>& targets,
+                                              const std::function<void()>& check) const;
+  bool is_computing() const;
+  void wake();
 
   struct Explained {
     Key key;

@@ -7,6 +7,7 @@
 
 #include "graph/evaluate/evaluator.h"
 #include "graph/evaluate/memory_ledger.h"
+#include "graph/evaluate/under_way.h"
 
 namespace kinegraph {
 
@@ -17,6 +18,7 @@ struct RunWorld {
   MemoryCache* memory;
   DiskCache* disk;
   MemoryLedger& ledger;
+  UnderWay& under_way;
   std::string cpu_path;
 };
 

@@ -45,6 +45,7 @@ void Schedule::go() {
   tbb::global_control machine(tbb::global_control::max_allowed_parallelism,
                               static_cast<std::size_t>(threads_));
   tbb::task_arena arena(threads_);
+  arena_ = &arena;
   arena.execute([&] {
     tbb::task_group group;
     group_ = &group;
@@ -64,6 +65,19 @@ void Schedule::go() {
 void Schedule::spawn(Step step, int node) {
   ++active_;
   group_->run([this, step, node] { run_step(step, node); });
+}
+
+// The run isn't over before that was called. Whoever calls it belongs to another run: with the lock held, so
+// that this one's end waits for it to be done with the arena.
+std::function<void()> Schedule::come_back_to(int node) {
+  if (stopping()) return {};  // and was woken already
+  ++active_;
+  auto task =
+      std::make_shared<tbb::task_handle>(group_->defer([this, node] { run_step(&Schedule::compute, node); }));
+  return [this, task = std::move(task)] {
+    std::lock_guard lock(mutex_);
+    arena_->enqueue(std::move(*task));
+  };
 }
 
 void Schedule::run_step(Step step, int node) {
@@ -313,15 +327,15 @@ void Schedule::compute(int node) {
   compute_claimed(node, *made.key, std::move(*inputs), std::move(wanted));
 }
 
-Attempt Schedule::attempt(int node, std::map<std::string, std::vector<ValuePtr>> inputs,
+Attempt Schedule::attempt(int node, const Halt& halt, std::map<std::string, std::vector<ValuePtr>> inputs,
                           const std::set<std::string>& wanted) {
   used_.mark();
   tell(node, "running", 0);
-  NodeWork work(halt_, world_.ledger, used_,
+  NodeWork work(halt, world_.ledger, used_,
                 [this, node](double progress) { tell(node, "running", progress); });
   auto attempt =
       compute_node({planned(node), keys_.of(node).files, work, world_.files, world_.ledger, rules_}, work,
-                   halt_, std::move(inputs), wanted);
+                   halt, std::move(inputs), wanted);
   at(node).outcome.seconds += attempt.seconds;
   return attempt;
 }
@@ -343,7 +357,7 @@ void Schedule::compute_effect(int node, std::map<std::string, std::vector<ValueP
     std::lock_guard lock(mutex_);
     finished_before = finished_;
   }
-  auto done = attempt(node, std::move(inputs), {});
+  auto done = attempt(node, halt_, std::move(inputs), {});
   auto& task = at(node);
   if (done.end == Attempt::End::file_changed && !std::exchange(task.restarted, true)) {
     keys_.make(node, true);
@@ -387,9 +401,19 @@ bool Schedule::made_elsewhere(int node, const Key& key, const std::set<std::stri
 void Schedule::compute_claimed(int node, const Key& key, std::map<std::string, std::vector<ValuePtr>> inputs,
                                std::set<std::string> wanted) {
   using End = Attempt::End;
+  if (!world_.under_way.begin(key, [&] { return come_back_to(node); })) {
+    std::lock_guard lock(mutex_);
+    auto& twins = twins_[key];
+    twins.running = false;
+    for (int waiting : std::exchange(twins.waiting, {})) spawn(&Schedule::compute, waiting);
+    return;
+  }
+  const auto ended = [this, &key](const void*) { world_.under_way.end(key); };
+  std::unique_ptr<const void, decltype(ended)> at_work(&key, ended);  // until it is in memory
+  const Halt halt(halt_, key);   // of the node, which may be wanted longer than the run
   std::unique_ptr<Claim> claim;  // until what was made is on the disk
   if (world_.disk) {
-    claim = world_.disk->claim(key, [this] { return halt_.asked(); });
+    claim = world_.disk->claim(key, [&] { return halt.asked(); });
     if (made_elsewhere(node, key, wanted)) return complete(node);
   }
   int finished_before = 0;
@@ -397,7 +421,7 @@ void Schedule::compute_claimed(int node, const Key& key, std::map<std::string, s
     std::lock_guard lock(mutex_);
     finished_before = finished_;
   }
-  auto done = attempt(node, std::move(inputs), wanted);
+  auto done = attempt(node, halt, std::move(inputs), wanted);
   auto& task = at(node);
 
   const bool restart = done.end == End::file_changed && !std::exchange(task.restarted, true);
@@ -425,6 +449,7 @@ void Schedule::compute_claimed(int node, const Key& key, std::map<std::string, s
     if (!later) task.notes = std::move(done.notes);
     for (int waiting : std::exchange(twins.waiting, {})) spawn(&Schedule::compute, waiting);
   }
+  at_work.reset();
   if (later) return;
   if (restart) {
     claim.reset();
@@ -441,8 +466,7 @@ void Schedule::compute_claimed(int node, const Key& key, std::map<std::string, s
   if (done.failure) return finish(node, NodeState::failed, std::move(done.failure));
   complete(node);
   if (!world_.disk) return;
-  for (const auto& [output, cached] : fresh)
-    world_.disk->put(output, cached, [this] { return halt_.asked(); });
+  for (const auto& [output, cached] : fresh) world_.disk->put(output, cached, [&] { return halt.asked(); });
 }
 
 }  // namespace kinegraph

@@ -2,8 +2,10 @@
 //
 // A node that is needed is first looked up in the caches; on a miss it asks for its inputs, and the last of
 // them to come starts it. No thread ever waits for a node: what waits is a number that counts down. Nodes of
-// one key are computed once; the others of that key take what the first one made.
+// one key are computed once; the others of that key take what the first one made, and so do other runs of the
+// same evaluator.
 #pragma once
+#include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <atomic>
@@ -78,13 +80,14 @@ class Schedule {
   bool stopping() const { return halt_.asked() || stop_new_.load(std::memory_order_relaxed); }
 
   void spawn(Step step, int node);
+  std::function<void()> come_back_to(int node);
   void run_step(Step step, int node);
   void look(int node);
   void compute(int node);
   void compute_effect(int node, std::map<std::string, std::vector<ValuePtr>> inputs);
   void compute_claimed(int node, const Key& key, std::map<std::string, std::vector<ValuePtr>> inputs,
                        std::set<std::string> wanted);
-  Attempt attempt(int node, std::map<std::string, std::vector<ValuePtr>> inputs,
+  Attempt attempt(int node, const Halt& halt, std::map<std::string, std::vector<ValuePtr>> inputs,
                   const std::set<std::string>& wanted);
   bool find_cached(int node);
   bool made_elsewhere(int node, const Key& key, const std::set<std::string>& wanted);
@@ -126,6 +129,7 @@ class Schedule {
   std::atomic<int> active_{0};
   std::atomic<bool> stop_new_{false};
   std::atomic<bool> rekeyed_{false};  // a file changed, so keys after it have to be made again
+  tbb::task_arena* arena_ = nullptr;
   tbb::task_group* group_ = nullptr;
 };
 

@@ -6,6 +6,8 @@
 
 #include <QMetaObject>
 #include <algorithm>
+#include <ctime>
+#include <utility>
 
 #include "graph/links.h"
 #include "graph/nested.h"
@@ -15,6 +17,8 @@ namespace kinegraph {
 namespace {
 
 constexpr int figures_of_still = 5;
+// At what of older work is still wanted: of this thread's own time, and by the clock.
+constexpr double longest_look = 0.02, latest_look = 0.2;  // seconds
 constexpr std::size_t most_nodes_looked_at = 200;
 constexpr std::size_t memory_for_values = std::size_t(1) << 30;
 
@@ -53,9 +57,11 @@ void lower_priority_of_this_thread() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), 10);
 }
 
-}  // namespace
-
-namespace {
+double seconds_of(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return double(now.tv_sec) + double(now.tv_nsec) * 1e-9;
+}
 
 // Nodes that something is wrong with stand aside as missing, so that all that doesn't depend on them still
 // runs: half of the graphs that a person edits aren't whole. What is wrong and of no node stays in
@@ -104,6 +110,24 @@ struct Evaluation::Result {
   std::uint64_t generation = 0, graph = 0;
 };
 
+// A request on its way.
+struct Evaluation::Run {
+  EvaluationRequest request;
+  Document whole;  // before nodes with problems are set aside
+  Plan plan;
+  std::vector<Target> targets;
+  std::shared_ptr<Result> result = std::make_shared<Result>();
+  StopToken stop;
+  std::thread thread;
+  std::set<std::string> joins;  // nodes that an older run is at
+
+  // With the lock held:
+  std::uint64_t generation = 0;      // for which it speaks
+  bool aside = false;                // a newer run took its place
+  std::set<std::string> speaks_for;  // then: nodes of the newer one that it is at
+  bool over = false;
+};
+
 Evaluation::Evaluation(const Registry& registry, std::string cache_folder, QObject* parent)
     : QObject(parent),
       registry_(registry),
@@ -118,8 +142,8 @@ Evaluation::~Evaluation() {
   {
     std::lock_guard lock(mutex_);
     quitting_ = true;
-    if (running_) running_->stop();
   }
+  cancel();
   wake_.notify_all();
   thread_.join();
 }
@@ -133,7 +157,8 @@ void Evaluation::request(EvaluationRequest request) {
       next_effects_ = std::move(request);
     else
       next_ = std::move(request);
-    if (running_ && !running_effects_) running_->stop();
+    // While nothing is computed there is nothing to keep.
+    if (running_ && !running_->request.effects && !evaluator_.is_computing()) running_->stop.stop();
   }
   wake_.notify_all();
 }
@@ -144,8 +169,10 @@ void Evaluation::forget() {
     ++generation_;
     ++graph_;
     next_.reset();
-    if (running_ && !running_effects_) running_->stop();
+    if (running_ && !running_->request.effects) running_->stop.stop();
+    for (const auto& run : aside_) run->stop.stop();
   }
+  evaluator_.wake();
   statuses_.clear();
   values_.clear();
   log_ = {};
@@ -153,15 +180,19 @@ void Evaluation::forget() {
 }
 
 void Evaluation::cancel() {
-  std::lock_guard lock(mutex_);
-  next_.reset();
-  next_effects_.reset();
-  if (running_) running_->stop();
+  {
+    std::lock_guard lock(mutex_);
+    next_.reset();
+    next_effects_.reset();
+    if (running_) running_->stop.stop();
+    for (const auto& run : aside_) run->stop.stop();
+  }
+  evaluator_.wake();
 }
 
 bool Evaluation::is_busy() const {
   std::lock_guard lock(mutex_);
-  return busy_;
+  return busy_ || next_ || next_effects_;
 }
 
 const NodeStatus* Evaluation::status(const std::string& node) const {
@@ -174,112 +205,182 @@ ValuePtr Evaluation::value(const std::string& node, const std::string& port) con
   return found == values_.end() ? nullptr : found->second;
 }
 
+bool Evaluation::may_begin(const std::optional<EvaluationRequest>& request) const {
+  return request && !(running_ && running_->request.effects);
+}
+
 void Evaluation::work() {
   lower_priority_of_this_thread();
   for (;;) {
-    EvaluationRequest request;
+    std::optional<EvaluationRequest> request;
+    std::vector<std::shared_ptr<Run>> ended;
     {
       std::unique_lock lock(mutex_);
-      const bool was_busy = busy_;
-      busy_ = next_ || next_effects_;
-      if (was_busy != busy_)
+      const auto is_over = [this](const std::shared_ptr<Run>& run) {
+        return run && (quitting_ || run->over);
+      };
+      wake_.wait(lock, [&] {
+        return quitting_ || is_over(running_) || std::any_of(aside_.begin(), aside_.end(), is_over) ||
+               may_begin(next_effects_) || may_begin(next_);
+      });
+      if (is_over(running_)) aside_.push_back(std::exchange(running_, nullptr));
+      for (auto& run : aside_)
+        if (is_over(run)) ended.push_back(std::exchange(run, nullptr));
+      std::erase(aside_, nullptr);
+      if (!quitting_ && may_begin(next_effects_))
+        request = std::exchange(next_effects_, std::nullopt);
+      else if (!quitting_ && may_begin(next_))
+        request = std::exchange(next_, std::nullopt);
+      const bool busy = request || next_ || next_effects_ || running_ || !aside_.empty();
+      if (std::exchange(busy_, busy) != busy)
         QMetaObject::invokeMethod(
-            this, [this, busy = busy_] { emit busy_changed(busy); }, Qt::QueuedConnection);
-      wake_.wait(lock, [this] { return quitting_ || next_ || next_effects_; });
-      if (quitting_) return;
-      auto& taken = next_effects_ ? next_effects_ : next_;
-      request = std::move(*taken);
-      taken.reset();
-      running_ = std::make_shared<StopToken>();
-      running_effects_ = request.effects;
-      if (!busy_) {
-        busy_ = true;
-        QMetaObject::invokeMethod(
-            this, [this] { emit busy_changed(true); }, Qt::QueuedConnection);
+            this, [this, busy] { emit busy_changed(busy); }, Qt::QueuedConnection);
+      if (quitting_) {
+        lock.unlock();
+        for (const auto& run : ended) run->thread.join();
+        return;
       }
     }
-    run(std::move(request));
-    std::lock_guard lock(mutex_);
-    running_.reset();
+    for (const auto& run : ended) run->thread.join();
+    if (request) begin(std::move(*request));
   }
 }
 
-void Evaluation::run(EvaluationRequest request) {
-  auto result = std::make_shared<Result>();
-  std::shared_ptr<StopToken> stop;
-  {
-    std::lock_guard lock(mutex_);
-    stop = running_;
-    result->generation = generation_;
-  }
-  result->effects = request.effects;
-  result->graph = request.graph;
-  const Document whole = request.document;  // before nodes with problems are set aside
-  PlanOptions planning;
-  planning.file = request.file;
-  planning.folder = planning.set_folder = planning.out = request.folder;
-  const Plan plan = plan_of_sound_part(request, registry_, planning, result->left_out, result->problems);
-  if (has_error(result->problems)) {
-    deliver(std::move(result));
+void Evaluation::begin(EvaluationRequest request) {
+  const std::shared_ptr<Run> fresh = planned(std::move(request));
+  replace_by(*fresh);
+  if (has_error(fresh->result->problems)) {
+    deliver(fresh->result);
     return;
   }
-  std::vector<Target> targets;
-  for (Target& target : request.targets)
-    if (request.document.nodes.count(target.node)) targets.push_back(std::move(target));
-  if (request.effects)
-    for (const std::string& node : plan.effects) targets.push_back({node, ""});
+  std::lock_guard lock(mutex_);
+  if (quitting_) return;
+  running_ = fresh;
+  fresh->thread = std::thread([this, fresh] { run(*fresh); });
+}
+
+std::shared_ptr<Evaluation::Run> Evaluation::planned(EvaluationRequest request) {
+  auto fresh = std::make_shared<Run>();
+  Run& run = *fresh;
+  {
+    std::lock_guard lock(mutex_);
+    run.generation = run.result->generation = generation_;
+  }
+  run.request = std::move(request);
+  run.result->effects = run.request.effects;
+  run.result->graph = run.request.graph;
+  run.whole = run.request.document;
+  PlanOptions planning;
+  planning.file = run.request.file;
+  planning.folder = planning.set_folder = planning.out = run.request.folder;
+  run.plan = plan_of_sound_part(run.request, registry_, planning, run.result->left_out, run.result->problems);
+  for (const Target& target : run.request.targets)
+    if (run.request.document.nodes.count(target.node)) run.targets.push_back(target);
+  if (run.request.effects)
+    for (const std::string& node : run.plan.effects) run.targets.push_back({node, ""});
+  return fresh;
+}
+
+void Evaluation::replace_by(Run& fresh) {
+  std::set<Key> kept;
+  try {
+    // What nobody needs any more has to stop at once, however long it takes to tell what somebody does.
+    const double begun = seconds_of(CLOCK_THREAD_CPUTIME_ID), asked = seconds_of(CLOCK_MONOTONIC);
+    const auto check = [&] {
+      if (seconds_of(CLOCK_THREAD_CPUTIME_ID) - begun > longest_look ||
+          seconds_of(CLOCK_MONOTONIC) - asked > latest_look)
+        throw Cancelled();
+    };
+    if (!has_error(fresh.result->problems))
+      for (const auto& [node, key] : evaluator_.wanted_under_way(fresh.plan, fresh.targets, check)) {
+        kept.insert(key);
+        fresh.joins.insert(node);
+      }
+  } catch (const Cancelled&) {
+    kept.clear();
+    fresh.joins.clear();
+  }
+  std::shared_ptr<Run> before;
+  {
+    std::lock_guard lock(mutex_);
+    before = std::exchange(running_, nullptr);
+    if (before) aside_.push_back(before);
+    for (const auto& run : aside_) {
+      if (kept.empty())
+        run->stop.stop();
+      else
+        run->stop.stop_all_but(kept);
+      run->aside = true;
+      run->generation = fresh.generation;
+      run->speaks_for = fresh.joins;
+    }
+  }
+  evaluator_.wake();
+  if (!before || !kept.empty()) return;
+  std::unique_lock lock(mutex_);
+  wake_.wait(lock, [&] { return before->over; });
+}
+
+void Evaluation::run(Run& run) {
+  lower_priority_of_this_thread();
   RunOptions options;
   options.keep_going = true;
-  options.out = request.folder;
+  options.out = run.request.folder;
   RunCallbacks callbacks;
   callbacks.progress = [&](const std::string& node, std::string_view state, double progress) {
     NodeStatus status;
     status.state = state_named(state);
     status.progress = progress;
-    deliver_status(node, std::move(status), result->generation);
+    deliver_status(run, node, std::move(status));
   };
-  callbacks.waiting = [&](const std::vector<std::string>& nodes) {
-    deliver_waiting(nodes, result->generation);
-  };
-  result->log = evaluator_.run(plan, targets, options, callbacks, stop.get());
-  for (const Target& target : targets) {
+  callbacks.waiting = [&](const std::vector<std::string>& nodes) { deliver_waiting(run, nodes); };
+  run.result->log = evaluator_.run(run.plan, run.targets, options, callbacks, &run.stop);
+  finish(run);
+  std::lock_guard lock(mutex_);
+  run.over = true;
+  wake_.notify_all();
+}
+
+void Evaluation::finish(Run& run) {
+  std::lock_guard one(finishing_);
+  Result& result = *run.result;
+  for (const Target& target : run.targets) {
     const NodeType* type = nullptr;
-    auto node = request.document.nodes.find(target.node);
-    if (node != request.document.nodes.end()) type = known_type(registry_, node->second);
+    auto node = run.request.document.nodes.find(target.node);
+    if (node != run.request.document.nodes.end()) type = known_type(registry_, node->second);
     if (!type) continue;
     for (const OutputPort& port : type->outputs)
       if (target.port.empty() || target.port == port.name)
-        if (ValuePtr value = evaluator_.value(plan, target.node, port.name))
-          result->values[target.node + "." + port.name] = std::move(value);
+        if (ValuePtr value = evaluator_.value(run.plan, target.node, port.name))
+          result.values[target.node + "." + port.name] = std::move(value);
   }
   std::vector<std::string> done;
-  for (const auto& [node, run] : result->log.nodes)
-    if (run.state == NodeState::done && node.find('/') == std::string::npos) done.push_back(node);
-  for (const auto& [node, unused] : plan.passed)
-    if (request.document.nodes.count(node)) done.push_back(node);
-  find_outdated(whole, *result);
-  deliver(std::move(result));
-  deliver_stills(request, plan, done);
-  if (!request.effects && !stop->stopped()) look_around(request, plan, *stop);
+  for (const auto& [node, one_run] : result.log.nodes)
+    if (one_run.state == NodeState::done && node.find('/') == std::string::npos) done.push_back(node);
+  for (const auto& [node, unused] : run.plan.passed)
+    if (run.request.document.nodes.count(node)) done.push_back(node);
+  find_outdated(run.whole, result);
+  deliver(run.result);
+  deliver_stills(run, done);
+  if (!run.request.effects && !run.stop.stopped()) look_around(run);
 }
 
-bool Evaluation::gives_way() const {
+bool Evaluation::gives_way(const Run& run) const {
   std::lock_guard lock(mutex_);
-  return quitting_ || next_ || next_effects_;
+  return quitting_ || next_ || next_effects_ || run.aside;
 }
 
 // After the values, which somebody waits for.
-void Evaluation::deliver_stills(const EvaluationRequest& request, const Plan& plan,
-                                const std::vector<std::string>& nodes) {
+void Evaluation::deliver_stills(const Run& run, const std::vector<std::string>& nodes) {
   std::map<std::string, std::shared_ptr<const Still>> stills;
   for (const std::string& node : nodes) {
-    if (gives_way()) break;  // what comes next makes those that are still missing
-    if (auto still = still_of(request, plan, node)) stills[node] = std::move(still);
+    if (gives_way(run)) break;  // what comes next makes those that are still missing
+    if (auto still = still_of(run.request, run.plan, node)) stills[node] = std::move(still);
   }
   if (stills.empty()) return;
   QMetaObject::invokeMethod(
       this,
-      [this, stills = std::move(stills), graph = request.graph] {
+      [this, stills = std::move(stills), graph = run.request.graph] {
         {
           std::lock_guard lock(mutex_);
           if (graph != graph_) return;
@@ -321,34 +422,33 @@ std::shared_ptr<const Still> Evaluation::still_of(const EvaluationRequest& reque
   return nullptr;
 }
 
-void Evaluation::look_around(const EvaluationRequest& request, const Plan& plan, StopToken& stop) {
+void Evaluation::look_around(Run& run) {
+  const EvaluationRequest& request = run.request;
+  const Plan& plan = run.plan;
   if (request.document.nodes.size() > most_nodes_looked_at) return;
   auto seen = std::make_shared<Result>();
-  {
-    std::lock_guard lock(mutex_);
-    seen->generation = generation_;
-  }
+  seen->generation = run.result->generation;
   seen->graph = request.graph;
   std::vector<Target> cached;
   for (const PlannedNode& node : plan.nodes) {
-    if (gives_way()) return;
+    if (gives_way(run)) return;
     if (!node.type || !node.enabled || node.type->outputs.empty() || !node.blocked.empty()) continue;
-    NodeRun run;
-    run.state = NodeState::done;
+    NodeRun known;
+    known.state = NodeState::done;
     const std::string first = node.type->outputs.front().name;
     try {
       const Evaluator::Explained explained = evaluator_.explain(plan, node.name, first);
       if (explained.cached != "memory" && explained.cached != "disk") continue;
-      run.outputs[first] = {.cached = explained.cached, .computed = true};
+      known.outputs[first] = {.cached = explained.cached, .computed = true};
     } catch (const Failure&) {
       continue;  // it can't have a key yet: its file is missing
     }
-    seen->log.nodes[node.name] = std::move(run);
+    seen->log.nodes[node.name] = std::move(known);
     if (node.type->outputs.front().type == "Motion" && request.document.nodes.count(node.name))
       cached.push_back({node.name, first});
   }
   // What is on disk alone is read for its still.
-  evaluator_.run(plan, cached, {.keep_going = true}, {}, &stop);
+  evaluator_.run(plan, cached, {.keep_going = true}, {}, &run.stop);
   for (const Target& target : cached)
     if (auto still = still_of(request, plan, target.node)) seen->stills[target.node] = std::move(still);
   QMetaObject::invokeMethod(
@@ -426,7 +526,14 @@ void Evaluation::sum_up_graph_nodes() {
   }
 }
 
-void Evaluation::deliver_status(const std::string& node, NodeStatus status, std::uint64_t generation) {
+void Evaluation::deliver_status(const Run& run, const std::string& node, NodeStatus status) {
+  std::uint64_t generation = 0;
+  {
+    std::lock_guard lock(mutex_);
+    // That it was stopped is no news of the node: a newer run asks for it.
+    if (run.aside && (!run.speaks_for.contains(node) || status.state == NodeStatus::State::cancelled)) return;
+    generation = run.generation;
+  }
   QMetaObject::invokeMethod(
       this,
       [this, node, status = std::move(status), generation]() mutable {
@@ -435,8 +542,10 @@ void Evaluation::deliver_status(const std::string& node, NodeStatus status, std:
           if (generation != generation_) return;
         }
         NodeStatus& known = statuses_[node];
-        status.seconds = known.seconds;
-        status.cached = known.cached;
+        if (status.state != NodeStatus::State::running) {
+          status.seconds = known.seconds;
+          status.cached = known.cached;
+        }
         status.diagnostics = known.diagnostics;
         status.still = known.still;
         known = std::move(status);
@@ -446,18 +555,27 @@ void Evaluation::deliver_status(const std::string& node, NodeStatus status, std:
       Qt::QueuedConnection);
 }
 
-void Evaluation::deliver_waiting(std::vector<std::string> nodes, std::uint64_t generation) {
-  if (nodes.empty()) return;
+void Evaluation::deliver_waiting(const Run& run, std::vector<std::string> nodes) {
   QMetaObject::invokeMethod(
       this,
-      [this, nodes = std::move(nodes), generation] {
+      [this, nodes = std::set<std::string>(nodes.begin(), nodes.end()), joins = run.joins,
+       generation = run.result->generation] {
         {
           std::lock_guard lock(mutex_);
           if (generation != generation_) return;
         }
+        using State = NodeStatus::State;
+        for (auto& [node, status] : statuses_) {
+          const bool goes_on = status.state == State::running && joins.contains(node);
+          const bool was_due = status.state == State::running || status.state == State::waiting;
+          if (nodes.contains(node) || goes_on || !was_due) continue;
+          status.state = State::idle;  // for an older run it was
+          emit status_changed(QString::fromStdString(node));
+        }
         for (const std::string& node : nodes) {
           NodeStatus& status = statuses_[node];
-          status.state = NodeStatus::State::waiting;
+          if (status.state == State::running && joins.contains(node)) continue;
+          status.state = State::waiting;
           status.progress = 0;
           emit status_changed(QString::fromStdString(node));
         }
@@ -476,6 +594,8 @@ void Evaluation::deliver(std::shared_ptr<Result> result) {
           if (result->graph != graph_) return;
           newest = result->generation == generation_;
         }
+        if (result->generation < delivered_) return;
+        delivered_ = result->generation;
         // An older run that was stopped says nothing new, but its finished values are as good as any.
         for (auto& [name, value] : result->values) values_[name] = value;
         for (const std::string& name : result->outdated) {
@@ -485,10 +605,11 @@ void Evaluation::deliver(std::shared_ptr<Result> result) {
         for (const auto& [name, run] : result->log.nodes) {
           NodeStatus& status = statuses_[name];
           if (run.state == NodeState::skipped || run.state == NodeState::cancelled) {
-            // What takes its place says so itself; if nothing does it must not stand there as running.
+            // What takes its place says so itself.
+            if (!newest) continue;
             if (status.state != NodeStatus::State::running && status.state != NodeStatus::State::waiting)
               continue;
-            status.state = newest ? NodeStatus::State::cancelled : NodeStatus::State::idle;
+            status.state = NodeStatus::State::cancelled;
             status.progress = 0;
             emit status_changed(QString::fromStdString(name));
             continue;
@@ -500,6 +621,13 @@ void Evaluation::deliver(std::shared_ptr<Result> result) {
           status.cached.clear();
           for (const auto& [port, output] : run.outputs)
             if (output.computed) status.cached = output.cached;
+          emit status_changed(QString::fromStdString(name));
+        }
+        for (auto& [name, status] : statuses_) {
+          const bool was_due =
+              status.state == NodeStatus::State::running || status.state == NodeStatus::State::waiting;
+          if (!newest || !was_due || result->log.nodes.contains(name)) continue;
+          status.state = NodeStatus::State::idle;
           emit status_changed(QString::fromStdString(name));
         }
         for (const auto& [name, diagnostics] : result->left_out) {

@@ -57,7 +57,8 @@ class Evaluation : public QObject {
   Evaluation(const Registry& registry, std::string cache_folder, QObject* parent = nullptr);
   ~Evaluation() override;  // stops what runs, waits for it
 
-  // Replaces what runs and what waits: the old work is told to stop at once. Values that stay the same come
+  // Replaces what runs and what waits: the old work is told to stop at once, but for nodes that the new
+  // request needs just as they are: those run on, and it takes what they give. Values that stay the same come
   // from the cache. A run with effects is not replaced by one without; the latter waits.
   void request(EvaluationRequest request);
   void cancel();
@@ -83,21 +84,26 @@ class Evaluation : public QObject {
 
  private:
   struct Result;
-  void work();  // the worker thread
-  void run(EvaluationRequest request);
+  struct Run;
+  void work();  // the thread that plans, and begins and stops runs
+  bool may_begin(const std::optional<EvaluationRequest>& request) const;  // with the lock held
+  void begin(EvaluationRequest request);
+  std::shared_ptr<Run> planned(EvaluationRequest request);
+  void replace_by(Run& fresh);  // what runs: it is stopped, or what is still wanted of it is set aside
+  void run(Run& run);           // on its own thread
+  void finish(Run& run);
   // States and stills of nodes that the caches know though nothing asked for them; gives way to any request.
-  void look_around(const EvaluationRequest& request, const Plan& plan, StopToken& stop);
-  void deliver_stills(const EvaluationRequest& request, const Plan& plan,
-                      const std::vector<std::string>& nodes);
-  bool gives_way() const;  // something newer waits
+  void look_around(Run& run);
+  void deliver_stills(const Run& run, const std::vector<std::string>& nodes);
+  bool gives_way(const Run& run) const;  // something newer waits
   std::shared_ptr<const Still> still_of(const EvaluationRequest& request, const Plan& plan,
                                         const std::string& node);
   void deliver(std::shared_ptr<Result> result);
   void find_outdated(const Document& document, Result& result);
   void take_stills(const std::map<std::string, std::shared_ptr<const Still>>& stills);
   void sum_up_graph_nodes();
-  void deliver_waiting(std::vector<std::string> nodes, std::uint64_t generation);
-  void deliver_status(const std::string& node, NodeStatus status, std::uint64_t generation);
+  void deliver_waiting(const Run& run, std::vector<std::string> nodes);
+  void deliver_status(const Run& run, const std::string& node, NodeStatus status);
 
   const Registry& registry_;
   FileStore files_;
@@ -109,17 +115,20 @@ class Evaluation : public QObject {
   std::condition_variable wake_;
   std::optional<EvaluationRequest> next_;
   std::optional<EvaluationRequest> next_effects_;
-  std::shared_ptr<StopToken> running_;
-  bool running_effects_ = false, quitting_ = false, busy_ = false;
+  std::shared_ptr<Run> running_;             // the newest; null where nothing runs
+  std::vector<std::shared_ptr<Run>> aside_;  // older ones, on their way to their end
+  bool quitting_ = false, busy_ = false;
   std::uint64_t generation_ = 0, graph_ = 0;  // counts requests, and graphs forgotten
 
-  // The worker's thread only: stills by what they were made of, kept while the value is known.
+  // Of the run that finishes: stills by what they were made of, kept while the value is known.
+  std::mutex finishing_;
   std::map<const Value*, std::pair<std::weak_ptr<const Value>, std::shared_ptr<const Still>>> stills_;
 
   // And of nodes that could not run, what they and all before them looked like then.
   std::map<std::string, std::string> failed_as_;
 
   // GUI thread only.
+  std::uint64_t delivered_ = 0;  // generation of the newest result
   std::map<std::string, NodeStatus> statuses_;
   std::map<std::string, ValuePtr> values_;
   RunLog log_;

@@ -185,6 +185,43 @@ TEST(EditorEvaluation, ANodeThatWaitsForAnotherSaysSo) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return state("back") == NodeStatus::State::cancelled; }, 20000));
 }
 
+TEST(EditorEvaluation, AnotherNodeChosenKeepsTheLongWorkThatItNeedsToo) {
+  Editor editor;
+  editor.session().open_text(R"({"format": "kinegraph", "schema": 1, "nodes": {
+    "a": {"type": "Gait", "params": {"seconds": 80}},
+    "b": {"type": "Gait", "params": {"gait": "sneak", "seconds": 80}},
+    "warp": {"type": "TimeWarp", "inputs": {"source": "a.motion", "reference": "b.motion"}},
+    "back": {"type": "UnwarpTime", "inputs": {"motion": "warp.warped", "warp": "warp.warp"}},
+    "turned": {"type": "Mirror", "inputs": {"motion": "warp.warped"}}}})",
+                             {});
+  double furthest = 0;
+  int fell_back = 0;
+  QObject::connect(&editor.window.evaluation(), &Evaluation::status_changed, &editor.window, [&] {
+    const NodeStatus* warp = editor.window.evaluation().status("warp");
+    if (!warp || warp->state == NodeStatus::State::done) return;
+    fell_back += warp->progress < furthest || (furthest > 0 && warp->state != NodeStatus::State::running);
+    furthest = std::max(furthest, warp->progress);
+  });
+  editor.session().select({"back"}, "back");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return furthest > 0; }, 180000));
+  // Hither and thither, and an edit of what it does not depend on.
+  for (const char* chosen : {"turned", "warp", "back", "turned"}) {
+    editor.session().select({chosen}, chosen);
+    QTest::qWait(20);
+  }
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_D);
+  editor.key(Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        const NodeStatus* turned = editor.window.evaluation().status("turned");
+        return turned && turned->state == NodeStatus::State::done && !editor.window.is_evaluating();
+      },
+      180000));
+  EXPECT_EQ(fell_back, 0);
+  EXPECT_TRUE(editor.window.evaluation().value("turned", "motion"));
+}
+
 TEST(EditorEvaluation, AMotionsNodeHasAStill) {
   Editor editor;
   const std::string gait = editor.add("gait");
