@@ -83,9 +83,9 @@ TEST(EditorParameters, DraggingASliderAppliesLiveAndIsOneStep) {
 TEST(EditorProblems, ADamagedClipIsToldWithItsLineAndWhatToDo) {
   const Diagnostic damaged =
       error("bad-number", "a number of OFFSET expected").in_file("takes/walk.bvh", {4, 12});
-  EXPECT_EQ(problem_text(damaged), "walk.bvh, line 4: a number of OFFSET expected");
+  EXPECT_EQ(problem_text(damaged), "walk.bvh, line 4: a number of OFFSET expected.");
   EXPECT_TRUE(advice_on(damaged).contains("Mend that line")) << qPrintable(advice_on(damaged));
-  EXPECT_EQ(advice_on(error("x", "y").hinting("link it")), "link it");
+  EXPECT_EQ(advice_on(error("x", "y").hinting("link it")), "Link it.");
   EXPECT_EQ(advice_on(error("x", "y")), "");
 }
 
