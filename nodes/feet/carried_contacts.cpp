@@ -59,8 +59,9 @@ Contacts carried_contacts(const Contacts& contacts, const Motion& motion, Work& 
     }
   }
   const double size = contacts.leg > 0 ? out.leg / contacts.leg : 1;
-  double floors = 0;
-  int parts = 0;
+  out.floor = contacts.floor;
+  // The floor is below the balls as far as it was, where there are any: how high ankles are above a flat sole
+  // is each rig's own.
   for (const char* part : {"heel", "ball"}) {
     const auto own = usual_height(out.points, part), theirs = usual_height(contacts.points, part);
     if (!own || !theirs) continue;
@@ -70,10 +71,8 @@ Contacts carried_contacts(const Contacts& contacts, const Motion& motion, Work& 
       for (std::size_t i = 0; i < point.heights.size(); ++i)
         point.heights[i] = *own + size * (from[k]->heights[i] - *theirs);
     }
-    floors += *own - size * (*theirs - contacts.floor);
-    ++parts;
+    out.floor = *own - size * (*theirs - contacts.floor);
   }
-  out.floor = parts > 0 ? floors / parts : contacts.floor;
   work.report(info("contacts-carried",
                    "the contacts are of another body: its heels' and balls' plants are taken for this one's")
                   .at_port("contacts"));

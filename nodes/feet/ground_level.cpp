@@ -30,7 +30,7 @@ std::vector<double> rise_to_ground(const std::vector<FootTrack>& feet,
     }
   }
   if (largest < least_rise) return {};
-  const double stiff = std::pow(smoothing * fps, 4);
+  const double reach = smoothing * fps, stiff = reach * reach * reach * reach;
   static constexpr double difference[3] = {1, -2, 1};
   for (std::size_t t = 0; t + 1 < frames; ++t) {
     system.add(t, t, evenness);

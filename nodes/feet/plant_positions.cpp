@@ -29,7 +29,8 @@ Vec3 path(const FootTrack& foot, const FootTrack::Part& part, std::size_t t) {
 // a restyled one may point its toes down into the floor.
 Vec3 levelled(Vec3 direction, double length, const Plant& a, const Plant& b) {
   if (!a.height || !b.height) return length * direction;
-  const double rise = *b.height - *a.height, level = std::hypot(direction.x, direction.z);
+  const double rise = *b.height - *a.height,
+               level = std::sqrt(direction.x * direction.x + direction.z * direction.z);
   if (std::fabs(rise) >= length || level <= 0) return length * direction;
   const double along = std::sqrt(length * length - rise * rise) / level;
   return {along * direction.x, rise, along * direction.z};

@@ -156,7 +156,7 @@ TEST(EditorEvaluation, WhatIsWrongStandsAsideAndTheRestRuns) {
   editor.session().select({gait}, gait);
   ASSERT_TRUE(editor.wait_for_evaluation());
   EXPECT_TRUE(
-      (void)QTest::qWaitFor([&] { return editor.window.evaluation().value(gait, "motion") != nullptr; }, 20000));
+      QTest::qWaitFor([&] { return editor.window.evaluation().value(gait, "motion") != nullptr; }, 20000));
   ASSERT_TRUE(editor.window.evaluation().status(feet));
   EXPECT_EQ(editor.window.evaluation().status(feet)->state, NodeStatus::State::incomplete);
 }
@@ -322,7 +322,7 @@ TEST(EditorPages, ReadingManyFilesInsideIsCancelledAndTakenUpAgain) {
   QTest::mouseClick(again, Qt::LeftButton);
   EXPECT_TRUE(editor.session().is_reading_inside());
   EXPECT_TRUE(
-      (void)QTest::qWaitFor([&] { return !editor.session().is_reading_inside() && editor.all_read(); }, 60000));
+      QTest::qWaitFor([&] { return !editor.session().is_reading_inside() && editor.all_read(); }, 60000));
 }
 
 TEST(EditorPages, EachPageKeepsThePinsOfItsViewer) {
@@ -349,7 +349,7 @@ TEST(EditorViewer, ALoadOfMarkersShowsThemWithoutALink) {
   editor.canvas().add("Load", {0, 0}, {}, {{"file", Json(mocap("points/walking2.c3d"))}});
   auto* viewer = editor.window.findChild<Viewer*>();
   ASSERT_TRUE(
-      (void)QTest::qWaitFor([&] { return viewer->shown().size() == 1 && viewer->shown()[0].motion; }, 20000));
+      QTest::qWaitFor([&] { return viewer->shown().size() == 1 && viewer->shown()[0].motion; }, 20000));
   EXPECT_TRUE(viewer->shown()[0].motion->markers);
   EXPECT_EQ(editor.window.evaluation().status(editor.session().current())->state, NodeStatus::State::done);
 }

@@ -110,12 +110,12 @@ TEST(EditorEvaluation, TheCurrentNodeIsEvaluatedAndAnEditAsksAgain) {
   Editor editor;
   const std::string gait = editor.add("gait");
   ASSERT_TRUE(
-      (void)QTest::qWaitFor([&] { return editor.window.evaluation().value(gait, "motion") != nullptr; }, 30000));
+      QTest::qWaitFor([&] { return editor.window.evaluation().value(gait, "motion") != nullptr; }, 30000));
   const ValuePtr first = editor.window.evaluation().value(gait, "motion");
   editor.session().perform(
       [&](const Document& d, const Registry& r) { return set_param(d, r, gait, "bounce", Json(1.5)); });
   EXPECT_TRUE(
-      (void)QTest::qWaitFor([&] { return editor.window.evaluation().value(gait, "motion") != first; }, 30000));
+      QTest::qWaitFor([&] { return editor.window.evaluation().value(gait, "motion") != first; }, 30000));
 }
 
 TEST(EditorProblems, AnOpenRequiredInputIsListedAndAClickGoesToItsNode) {

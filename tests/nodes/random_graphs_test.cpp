@@ -127,7 +127,11 @@ TEST(Graphs, OfTheRepositoryLoadAndSaveAsTheyAre) {
       const std::string text = content(file);
       const ReadResult read = read_document(text, file.string(), registry());
       EXPECT_FALSE(has_error(read.problems)) << all_text(read.problems);
-      EXPECT_EQ(write_document(read.document, registry()), text) << file;
+      if (!read.migrated) {  // golden files keep the versions of their day
+        EXPECT_EQ(write_document(read.document, registry()), text) << file;
+      } else {
+        EXPECT_NE(file.string().find("golden"), std::string::npos) << file << ": kinegraph upgrade";
+      }
       ++count;
     }
   EXPECT_GE(count, 145);
