@@ -47,73 +47,75 @@ std::vector<int> links(const Skeleton& skeleton, int top, int bottom) {
   return chain;
 }
 
-std::vector<PlantPositions> places_of(const std::vector<FootTrack>& feet, const Contacts& contacts,
-                                      const FootskateParams& params) {
-  std::vector<PlantPositions> places;
-  for (const FootTrack& foot : feet)
-    places.push_back(plant_positions(foot, contacts.fps, params.floor, contacts.floor));
-  return places;
-}
-
-// The motion as a whole at the height of its plants' ground.
-Motion on_ground(const Motion& motion, const Contacts& contacts, const FootskateParams& params,
-                 const std::vector<double>& weights, Work& work) {
-  const WorldMotion world = world_motion(motion, work);
-  const std::vector<FootTrack> feet = foot_tracks(motion.skeleton(), world, contacts);
-  const std::vector<double> rise = rise_to_ground(feet, places_of(feet, contacts, params), motion.fps());
-  if (rise.empty()) return motion;
-  Motion out = motion.translates(0) ? motion : motion.with_translation(0);
-  std::vector<Vec3> moves(motion.frames());
-  for (std::size_t t = 0; t < moves.size(); ++t) moves[t] = {0, weights[t] * rise[t], 0};
-  move_root(motion.skeleton(), moves, out);
-  return out;
+// A motion's feet, and where they have to go.
+struct Feet {
+  WorldMotion world;
+  std::vector<FootTrack> tracks;
+  std::vector<FloorLimits> floors;
+  std::vector<AnkleTargets> targets;
+  std::vector<std::vector<double>> lifts;  // PlantPositions::lift
+  std::vector<Vec3> root;                  // by how much the root moves for them
+};
+Feet feet_of(const Motion& motion, const Contacts& contacts, const FootskateParams& params,
+             const std::vector<double>& weights, Work& work) {
+  Feet feet{world_motion(motion, work), {}, {}, {}, {}, {}};
+  feet.tracks = foot_tracks(motion.skeleton(), feet.world, contacts);
+  const double fps = motion.fps();
+  for (const FootTrack& foot : feet.tracks) {
+    work.check();
+    const PlantPositions places = plant_positions(foot, fps, params.floor, contacts.floor);
+    feet.floors.push_back(floor_limits(contacts, foot, params.floor));
+    AnkleTargets target = ankle_turns(foot, places, fps, params.blend);
+    raise_heels(foot, places, feet.floors.back(), fps, params.blend, target);
+    move_ankles(foot, places, fps, params.blend, target);
+    for (std::size_t t = 0; t < motion.frames(); ++t) {
+      target.move[t] *= weights[t];
+      if (weights[t] != 1) target.turn[t] = slerp(weights[t], Quat{}, target.turn[t]);
+    }
+    feet.targets.push_back(std::move(target));
+    feet.lifts.push_back(places.lift);
+  }
+  feet.root = root_adjustment(feet.world, feet.tracks, feet.targets, fps,
+                              {params.root_smoothing, params.knee_damping / degrees_per_radian}, work);
+  return feet;
 }
 
 }  // namespace
 
 FootskateResult clean_footskate(const Motion& input, const Contacts& contacts, const FootskateParams& params,
                                 const std::vector<double>& weights, Work& work) {
-  const Motion motion = on_ground(input, contacts, params, weights, work);
-  const Skeleton& skeleton = motion.skeleton();
-  const WorldMotion world = world_motion(motion, work);
-  const std::vector<FootTrack> feet = foot_tracks(skeleton, world, contacts);
-  std::vector<FloorLimits> floors;
-  std::vector<AnkleTargets> targets;
-  for (const FootTrack& foot : feet) {
-    work.check();
-    const PlantPositions places = plant_positions(foot, motion.fps(), params.floor, contacts.floor);
-    floors.push_back(floor_limits(contacts, foot, params.floor));
-    AnkleTargets target = ankle_turns(foot, places, motion.fps(), params.blend);
-    raise_heels(foot, places, floors.back(), motion.fps(), params.blend, target);
-    move_ankles(foot, places, motion.fps(), params.blend, target);
-    for (std::size_t t = 0; t < motion.frames(); ++t) {
-      target.move[t] *= weights[t];
-      if (weights[t] != 1) target.turn[t] = slerp(weights[t], Quat{}, target.turn[t]);
-    }
-    targets.push_back(std::move(target));
-  }
+  Motion motion = input.translates(0) ? input : input.with_translation(0);
+  const Skeleton& skeleton = input.skeleton();
+  Feet all = feet_of(motion, contacts, params, weights, work);
   work.progress(0.3);
+  if (const auto rise = rise_to_ground(all.targets, all.lifts, all.root, motion.fps()); !rise.empty()) {
+    std::vector<Vec3> moves(motion.frames());
+    for (std::size_t t = 0; t < moves.size(); ++t) moves[t] = {0, weights[t] * rise[t], 0};
+    move_root(skeleton, moves, motion);
+    all = feet_of(motion, contacts, params, weights, work);
+  }
+  const WorldMotion& world = all.world;
+  const std::vector<FootTrack>& feet = all.tracks;
+  std::vector<AnkleTargets>& targets = all.targets;
   const double damping = params.knee_damping / degrees_per_radian;
-  const std::vector<Vec3> root =
-      root_adjustment(world, feet, targets, motion.fps(), {params.root_smoothing, damping}, work);
   work.progress(0.6);
 
   FootskateResult result;
-  result.motion = motion.translates(0) ? motion : motion.with_translation(0);
-  move_root(skeleton, root, result.motion);
+  result.motion = motion;
+  move_root(skeleton, all.root, result.motion);
   result.largest_root_move = largest_move(input, result.motion);
   // First all rotations: most motions need no more tracks than they have.
   std::vector<SolvedLeg> legs;
   for (std::size_t f = 0; f < feet.size(); ++f) {
     AnkleTargets& target = targets[f];
     // Only now: a body that swings its feet too low isn't lifted for it.
-    lift_off_floor(feet[f], floors[f], motion.fps(), params.blend, weights, target);
+    lift_off_floor(feet[f], all.floors[f], motion.fps(), params.blend, weights, target);
     const Leg& leg = feet[f].leg;
-    legs.push_back(solved_leg(world, feet[f], target, root, {params.stretch, damping}, motion.fps(),
+    legs.push_back(solved_leg(world, feet[f], target, all.root, {params.stretch, damping}, motion.fps(),
                               std::min(params.blend, stretch_blend), work));
     target.move = legs[f].ankle_move;
-    raise_balls(feet[f], floors[f], motion.fps(), params.blend, weights, target);
-    const std::vector<Quat> toes = toe_turns(feet[f], floors[f], motion.fps(), params.blend, target);
+    raise_balls(feet[f], all.floors[f], motion.fps(), params.blend, weights, target);
+    const std::vector<Quat> toes = toe_turns(feet[f], all.floors[f], motion.fps(), params.blend, target);
     for (std::size_t t = 0; t < motion.frames(); ++t) {
       if (t % 256 == 0) work.check();
       const double residual = legs[f].residual[t];

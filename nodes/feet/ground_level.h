@@ -1,21 +1,23 @@
-// A restyled body may stand in the floor: legs that another style straightens, at a height that stays the old
-// one. Straight legs can't give way, so before its feet are held one by one the body is lifted to their
-// ground as a whole, and a swinging foot with it. (A body that floats needs none of this: its legs reach
-// down, and the root follows where they can't.)
+// A restyled body may stand in the floor, or float: its legs are those of another style, its height is the
+// old one. Before its feet are held one by one it is brought to its ground as a whole, so that a swinging
+// foot goes with it, and what comes before the first plant and after the last one does too.
 #pragma once
 #include <vector>
 
-#include "nodes/feet/foot_track.h"
-#include "nodes/feet/plant_positions.h"
+#include "nodes/feet/ankle_targets.h"
+#include "nodes/motion/rotation.h"
 
 namespace kinegraph {
 
-// World metres by which to lift the whole body, frame by frame: h² / (h + 2 cm) where h > 0, since knees take
-// what is small; h being over planted frames as near as can be to what each foot's stand lacks
-// (PlantPositions::lift), and as even as can be,
-//   least Σ_feet planted (h - lift)² + smoothing⁴ ‖h″‖².
-// Empty: no stand lacks anything, as where the contacts were found on the motion itself.
-std::vector<double> rise_to_ground(const std::vector<FootTrack>& feet,
-                                   const std::vector<PlantPositions>& places, double fps);
+// World metres by which to lift the body, frame by frame: over planted frames as near as can be to what each
+// foot asks for, and as even as can be,
+//   least Σ_feet held (h - asked)² + smoothing⁴ ‖h″‖²,
+// level before the first plant and after the last; of that h |h| / (|h| + 2 cm), since what is small is a
+// matter of single steps. A foot that stands too low asks for its whole `lift` (PlantPositions::lift), as
+// straight legs don't give way; one that stands too high for what the root goes down for it
+// (root_adjustment.h), as legs reach down first. Empty: nothing is asked.
+std::vector<double> rise_to_ground(const std::vector<AnkleTargets>& targets,
+                                   const std::vector<std::vector<double>>& lifts,
+                                   const std::vector<Vec3>& root, double fps);
 
 }  // namespace kinegraph
