@@ -44,7 +44,11 @@ class Checker {
         return check_text(type, value, where);
       case Kind::open_file:
       case Kind::save_file:
-        if (!value.is_string()) wrong_type(type, value, where);
+        if (!value.is_string()) return wrong_type(type, value, where);
+        if (value.string().find('\0') != std::string::npos)  // the system would read no further
+          add(error("bad-path", fmt::format("{} has a zero in it, which no path can hold", shown(value)))
+                  .hinting("leave out the \\u0000"),
+              value, where);
         return;
       case Kind::choice:
         return check_choice(type, value, where);

@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int most_threads = 1024;
+
 std::uint64_t machine_memory() {
   return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
          static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
@@ -38,7 +40,11 @@ std::uint64_t size_option(const char* option, const std::string& text, std::uint
 Session::Session(const Program& program, const RunArguments& arguments, Opened opened)
     : program_(program), arguments_(arguments), opened_(std::move(opened)) {
   if (arguments.threads < 0) throw UsageError(error("bad-option", "--threads can't be negative"));
-  if (arguments.timeout < 0) throw UsageError(error("bad-option", "--timeout can't be negative"));
+  // So many threads, or the tables for them, are more than a machine may have room for.
+  if (arguments.threads > most_threads)
+    throw UsageError(error("bad-option", fmt::format("--threads can't be more than {}", most_threads)));
+  if (!(arguments.timeout >= 0))
+    throw UsageError(error("bad-option", "--timeout can't be negative").hinting("seconds, such as 2.5"));
   options_.threads = arguments.threads;
   options_.memory = size_option("--memory", arguments.memory, machine_memory() / 2);
   std::uint64_t cache_limit = size_option("--cache-limit", arguments.cache_limit, 0);

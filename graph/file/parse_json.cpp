@@ -564,8 +564,8 @@ void drop_consequences(Diagnostics& problems, bool in_doubt) {
       "unknown-param", "unknown-port",       "out-of-range",    "bad-range",
       "bad-choice",    "bad-value",          "wrong-length",    "bad-link",
       "needs-list",    "one-link",           "type-mismatch",   "not-an-integer",
-      "missing-file",  "not-a-regular-file", "leads-outside",   "absolute-path",
-      "backslash-path"};
+      "missing-file",  "not-a-regular-file", "bad-path",        "leads-outside",
+      "absolute-path", "backslash-path"};
   if (in_doubt)
     std::erase_if(problems, [&](const Diagnostic& problem) { return !certain.contains(problem.code); });
   const std::set<std::string_view> of_values = {"syntax", "bad-number", "not-finite"},

@@ -195,6 +195,8 @@ const Mistake mistakes[] = {
      2, "\"clip/walk.bvh\"", "a", "file", "no folder"},
     {"FolderAsAFile", nodes(R"("a": {"type": "Load", "params": {"file": "clips"}})"), "not-a-regular-file", 2,
      "\"clips\"", "a", "file", ""},
+    {"ZeroInAPath", nodes(R"("a": {"type": "Load", "params": {"file": "clips/walk.bvh\u0000.txt"}})"),
+     "bad-path", 2, "\"clips", "a", "file", "u0000"},
     {"PathLeadsOut",
      after_walk(
          R"("o": {"type": "Export", "params": {"file": "a/../../o.bvh"}, "inputs": {"motion": "walk.motion"}})"),
