@@ -171,7 +171,7 @@ class Rescuer {
   // A node, or a part of the graph, that can't stand here.
   void by_shape(const LooseToken& token) {
     const std::size_t value = at_ + 2;
-    if (kind(value) != '{' || laid_out_) return;
+    if (kind(value) != '{' || (laid_out_ && token.first)) return;
     const std::string_view name = name_in(at_), first = kind(value + 2) == ':' ? name_in(value + 1) : "";
     const bool in_nodes = open_.size() > 1 && open_[1].name == "nodes";
     const bool in_part = open_.size() == 4 && (open_[3].name == "params" || open_[3].name == "inputs");

@@ -12,7 +12,8 @@ namespace kinegraph {
 namespace {
 
 constexpr std::size_t none = std::string_view::npos;
-constexpr std::size_t longest_line = 600;      // characters, in which a quote's place is looked for
+constexpr std::size_t most_tried = std::size_t{32}
+                                   << 20;      // bytes read to find the places of all missing quotes
 constexpr std::size_t most_lines_joined = 40;  // of one string
 
 bool is_blank(char c) {
@@ -122,7 +123,7 @@ struct Requoted {
   std::size_t at = 0;  // of the quote
   int clashes = 0;
 };
-Requoted requoted(std::string_view line) {
+Requoted requoted(std::string_view line, std::size_t& may_try) {
   std::size_t end = line.size();
   while (end > 0 && is_blank(line[end - 1])) --end;
   Requoted best{end, 1000};
@@ -130,11 +131,12 @@ Requoted requoted(std::string_view line) {
     const std::string whole = std::string(line.substr(0, at)) + '"' + std::string(line.substr(at));
     if (const int found = clashes(row_of(whole), whole); found < best.clashes) best = {at, found};
   };
-  if (end > longest_line) {
+  if (end * end > may_try) {
     while (end > 0 && (is_blank(line[end - 1]) || std::string_view(",]}").find(line[end - 1]) != none)) --end;
     try_at(end);
     return best;
   }
+  may_try -= end * end;
   for (std::size_t at = 0; at < end; ++at)
     if (!is_separator(line[at]) && (at == 0 || is_separator(line[at - 1]))) try_at(at);
   for (std::size_t at = 1; at <= end; ++at)
@@ -178,7 +180,7 @@ class LooseReader {
   }
 
   std::size_t read_unclosed(std::size_t at, std::string_view line, const Row& row) {
-    const Requoted alone = requoted(line);
+    const Requoted alone = requoted(line, may_try_);
     if (const std::size_t end = end_of_string_over_lines(at, row, alone.clashes); end != none) {
       const Row joined = row_of(text_.substr(at, end - at));
       keep(joined, at, at);
@@ -212,7 +214,7 @@ class LooseReader {
 
   // The end of the line in which the string ends that `row` leaves open, where that reads better than two
   // mistakes; npos otherwise.
-  std::size_t end_of_string_over_lines(std::size_t at, const Row& row, int clashes_alone) const {
+  std::size_t end_of_string_over_lines(std::size_t at, const Row& row, int clashes_alone) {
     std::size_t start = end_of_line(at) + 1;
     for (std::size_t lines = 0; start < text_.size() && lines < most_lines_joined; ++lines) {
       const std::size_t end = end_of_line(start);
@@ -224,7 +226,7 @@ class LooseReader {
         const Row joined = row_of(both);
         if (joined.comment != none || joined.unclosed != none || joined.tokens.size() < row.tokens.size())
           return none;
-        const int apart = clashes_alone + requoted(line).clashes + 2;
+        const int apart = clashes_alone + requoted(line, may_try_).clashes + 2;
         return clashes(joined, both) + 1 < apart ? end : none;
       }
       start = end + 1;
@@ -255,7 +257,7 @@ class LooseReader {
   }
 
   std::string_view text_;
-  std::size_t line_ = 0;
+  std::size_t line_ = 0, may_try_ = most_tried;
   LooseText result_;
 };
 

@@ -139,6 +139,41 @@ TEST(ReadPastMistakes, ConflictMarkersStop) {
   EXPECT_TRUE(result.document.nodes.empty());
 }
 
+// One node a line, as people write them by hand.
+TEST(ReadPastMistakes, OfNodesOfOneLineEachTheIndentationAndTheirPartsTellWhereABracketIsMissing) {
+  const auto text = [](const std::string& node) {
+    return "{\n  \"format\": \"kinegraph\",\n  \"schema\": 1,\n  \"nodes\": {\n    \"a\": {\"type\": "
+           "\"Load\"},\n    " +
+           node + "\n    \"z\": {\"type\": \"Laod\"}\n  }\n}\n";
+  };
+  using Told = std::vector<std::string>;
+  EXPECT_EQ(toys::in_short(
+                judged(text(R"("s": {"type": "QuatStats", "inputs": {"motion": "a.motion"},)")).problems),
+            (Told{"7:5 syntax", "7:19 unknown-type"}));
+  EXPECT_EQ(
+      toys::in_short(
+          judged(
+              text(
+                  R"("t": {"type": "TimeWarp", "params": {"x": 1, "inputs": {"source": "a.motion", "reference": "a.motion"}},)"))
+              .problems),
+      (Told{"6:42 unknown-param", "6:50 syntax", "7:19 unknown-type"}));
+}
+
+// The line is as long as a whole graph.
+TEST(ReadPastMistakes, OfAGraphInOneLineAMissingQuoteIsToldOnce) {
+  std::string text = R"({"format": "kinegraph", "schema": 1, "nodes": {)";
+  for (int i = 0; i < 40; ++i)
+    text += "\"n" + std::to_string(i) +
+            "\": {\"type\": \"Load\", \"params\": {\"file\": \"a walk of mine.bvh\"}}, ";
+  text += R"("z": {"type": "Laod"}}})";
+  const std::size_t quote = text.find("\"a walk", 900);
+  text.erase(quote, 1);
+  const auto told = toys::in_short(judged(text).problems);
+  ASSERT_EQ(told.size(), 2u) << toys::all_text(judged(text).problems);
+  EXPECT_EQ(told[0], "1:" + std::to_string(quote + 1) + " syntax");
+  EXPECT_TRUE(told[1].ends_with(" unknown-type"));
+}
+
 TEST(ReadPastMistakes, ARateThatWasMeantIsJudged) {
   const ReadResult result = judged(between_mistakes(R"("a": {"type": "Load", "params": {"fps": 02000}},)"));
   EXPECT_EQ(result.document.nodes.at("a").params.at("fps"), Json(2000));
