@@ -29,7 +29,9 @@ class Swinging {
         count_(sub.all.size()),
         frames_(places.frames()),
         swing_(std::move(swing)) {
-    const double turn = std::min(within * watch.always_allowed() / (1 + pi), pi / 2);
+    // A step is at most π/2 times the turns of both links together.
+    const double most = within * watch.always_allowed();
+    const double turn = std::min({most / (1 + pi), swing_room(most, 0) / pi, pi / 2});
     quick_ = cosine(turn) * cosine(turn);
   }
 
@@ -54,7 +56,7 @@ class Swinging {
           for (std::size_t t = start; t < end; ++t) {
             const Vec3 still = at[t] - above[t];
             const Vec3 swung = still + (swing_[t * count_ + i] - swing_[t * count_ + p]);
-            if (points_back(still, swung) ||
+            if (points_back(still, swung, watch_.rest_length(static_cast<int>(i))) ||
                 (t > 0 && is_quick(still_before[i], swung_before[i], still, swung))) {
               held_[i] = 1;
               any = true;
@@ -133,11 +135,11 @@ class Swinging {
       const double along = dot(a, b);
       return along > 0 && along * along > cosine_squared * (dot(a, a) * dot(b, b));
     };
-    // A step is at most π/2 times the turns of both together.
     const double most = watch_.always_allowed();
     if (below(still_before, still, quick_) && below(swung_before, swung, quick_)) return false;
     return swing_step(still_before, swung_before, still, swung) >
-           within * most - arc_tangent2(norm(cross(still_before, still)), dot(still_before, still));
+           swing_room(within * most,
+                      arc_tangent2(norm(cross(still_before, still)), dot(still_before, still)));
   }
 
   void hold_links() {
@@ -153,9 +155,9 @@ class Swinging {
         still[t] = still_[t * count_ + i] - still_[t * count_ + p];
         swung[t] = still[t] + (swing_[t * count_ + i] - swing_[t * count_ + p]);
       }
-      if (held_[i] && needs_hold(still, swung)) {
+      if (held_[i] && needs_hold(still, swung, watch_.rest_length(static_cast<int>(i)))) {
         for (std::size_t t = 1; t < frames_; ++t) most[t] = within * watch_.allowed(static_cast<int>(i), t);
-        swung = hold_swing(still, swung, most, fade_seconds * fps_);
+        swung = hold_swing(still, swung, most, watch_.rest_length(static_cast<int>(i)), fade_seconds * fps_);
         moved[i] = 1;
       }
       for (std::size_t t = 0; t < frames_; ++t)
@@ -164,9 +166,9 @@ class Swinging {
     swing_ = std::move(out);
   }
 
-  bool needs_hold(const std::vector<Vec3>& still, const std::vector<Vec3>& swung) const {
+  bool needs_hold(const std::vector<Vec3>& still, const std::vector<Vec3>& swung, double rest) const {
     for (std::size_t t = 0; t < frames_; ++t)
-      if (points_back(still[t], swung[t]) ||
+      if (points_back(still[t], swung[t], rest) ||
           (t > 0 && is_quick(still[t - 1], swung[t - 1], still[t], swung[t])))
         return true;
     return false;

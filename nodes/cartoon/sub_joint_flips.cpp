@@ -30,6 +30,7 @@ FlipWatch::FlipWatch(const SubJoints& sub, const Skeleton& rubber, const WorldMo
   for (int i = 0; i < rubber.size(); ++i) {
     parents_.push_back(rubber.joints[i].parent);
     const double rest = rubber.link_length(i) * rubber.above_scale;
+    rest_.push_back(rest);
     shortest_squared_.push_back(i > 0 && rest > least ? free_below * free_below * rest * rest : -1);
   }
 }

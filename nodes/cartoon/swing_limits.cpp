@@ -9,8 +9,11 @@
 namespace kinegraph {
 namespace {
 
-// Of the still link's length, what a swung one has along it at least.
-constexpr double least_along = 0.25;
+// Of the still link's length, or of that at rest, if shorter, what a swung one has along the still one at
+// least, and half of the width in which it comes to that.
+constexpr double least_along = 0.2, soft = 0.3;
+
+constexpr double at_ease = 0.5;  // of what the link may turn, how fast its swing does at most
 
 double angle_between(Vec3 a, Vec3 b) {
   return arc_tangent2(norm(cross(a, b)), dot(a, b));
@@ -52,9 +55,12 @@ Vec3 direction_of(Aim aim, Vec3 axis, Vec3 across) {
   return part.cos * axis + (part.sin / angle) * (aim.x * across + aim.y * cross(axis, across));
 }
 
-Vec3 without_back(Vec3 still, Vec3 axis, Vec3 swung) {
-  const double missing = least_along * norm(still) - dot(swung, axis);
-  return missing > 0 ? swung + missing * axis : swung;
+Vec3 without_back(Vec3 still, Vec3 axis, Vec3 swung, double rest) {
+  const double length = std::min(norm(still), rest), width = soft * length,
+               over = dot(swung, axis) - least_along * length;
+  if (over >= width) return swung;
+  const double held = over > -width ? (over + width) * (over + width) / (4 * width) : 0;
+  return swung + (held - over) * axis;
 }
 
 // Midway between following forwards and backwards. False: nothing is too fast.
@@ -82,18 +88,24 @@ double swing_step(Vec3 still_before, Vec3 swung_before, Vec3 still, Vec3 swung) 
   return (aim_of(swung, to, carried(across, from, to)) - aim_of(swung_before, from, across)).size();
 }
 
-bool points_back(Vec3 still, Vec3 swung) {
-  return !(dot(swung, still) > least_along * dot(still, still));
+double swing_room(double most, double own) {
+  return std::clamp(most - own, 0.0, at_ease * most);
+}
+
+bool points_back(Vec3 still, Vec3 swung, double rest) {
+  const double square = dot(still, still), along = dot(still, swung), least = least_along + soft;
+  if (!(along > 0) || square == 0) return true;
+  return along < least * square && along * along < least * least * (rest * rest) * square;
 }
 
 std::vector<Vec3> hold_swing(std::span<const Vec3> still, std::span<const Vec3> swung,
-                             std::span<const double> most, double fade) {
+                             std::span<const double> most, double rest, double fade) {
   const std::size_t frames = still.size();
   std::vector<double> room(frames);  // what the swing may turn
   std::vector<bool> free(frames);
   for (std::size_t t = 1; t < frames; ++t) {
     const double own = angle_between(still[t - 1], still[t]);
-    room[t] = std::max(most[t] - own, 0.0);
+    room[t] = swing_room(most[t], own);
     if (own > most[t]) free[t - 1] = free[t] = true;
   }
   for (std::size_t t = 0; t < frames; ++t)
@@ -106,7 +118,7 @@ std::vector<Vec3> hold_swing(std::span<const Vec3> still, std::span<const Vec3> 
     if (axes[t] == Vec3{}) axes[t] = t > 0 ? axes[t - 1] : Vec3{0, 1, 0};
     across[t] = t > 0 ? carried(across[t - 1], axes[t - 1], axes[t]) : any_across(axes[t]);
     if (away[t] > 0) out[t] = still[t] + (1 - away[t]) * (swung[t] - still[t]);
-    out[t] = without_back(still[t], axes[t], out[t]);
+    out[t] = without_back(still[t], axes[t], out[t], rest);
     aims[t] = aim_of(out[t], axes[t], across[t]);
   }
   const std::vector<Aim> wished = aims;

@@ -230,6 +230,48 @@ TEST(Pin, AddsLittleMoreThanStandingStillDoesOnMovingClips) {
   }
 }
 
+// A foot or a hand that rests in the clip, through the pin and its fades.
+TEST(Pin, AddsLittleAccelerationToPointsThatRestInRealClips) {
+  KINEGRAPH_NEEDS_MOCAP();
+  int pins = 0;
+  double worst = 0;
+  for (const char* file : cartoon_clips) {
+    Alone work;
+    const Motion clip = resampled(cartoon_clip(file, 1000), 120, work);
+    for (const Motion& motion : {clip, rubber_joints(clip, {}, nullptr, work).motion}) {
+      const WorldMotion world = world_motion(motion);
+      constexpr double fade = 0.25, d = 0.2;
+      constexpr std::size_t around = 32, held = 12;  // frames
+      for (const auto& group : automatic_groups(motion.skeleton(), small_ends(motion.skeleton()))) {
+        if (group.size() < 3) continue;
+        const auto way = world.position(group.back());
+        int here = 0;
+        for (std::size_t start = around; start + held + around < motion.frames() && here < 2; start += held) {
+          double far = 0;
+          for (std::size_t t = start - around; t < start + held + around; ++t)
+            far = std::max(far, norm(way[t] - way[start]));
+          const double own = acceleration(way, nullptr, 120, start - around, start + held + around);
+          if (far > 0.03 || own > 7) continue;
+          ++here;
+          ++pins;
+          for (Vec3 direction : {Vec3{0, 1, 0}, Vec3{0.6, 0, -0.8}}) {
+            PinParams params;
+            params.fade = fade;
+            params.pins = {{motion.skeleton().joints[group.back()].name, start, start + held,
+                            way[start] + d * direction}};
+            const WorldMotion pinned = world_motion(pin(motion, params, nullptr, work));
+            const double added = acceleration(pinned.position(group.back()), &way, 120, 0, motion.frames());
+            EXPECT_LT(added, 8 * d / (fade * fade)) << file << " " << params.pins[0].joint << " " << start;
+            worst = std::max(worst, added / (d / (fade * fade)));
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(pins, 1);
+  RecordProperty("pins", std::to_string(pins) + ", " + std::to_string(worst) + " d/t²");
+}
+
 TEST(BentChain, TurnsItsBendsAlongWithItself) {
   // A chain along x that zigzags in y; its end is carried over so that it ends along y. The zigzag must then
   // lie across the new direction, not along it.
