@@ -72,7 +72,8 @@ class Reader {
   void take_brace(const std::string& after) {
     skip_space();
     if (at_ == end_ || *at_ != '{')
-      fail("bad-hierarchy", fmt::format("{{ expected after {}, found {}", after, word()));
+      fail("bad-hierarchy", fmt::format("{{ expected after {}, found {}",
+                                        after.size() > 60 ? shown(after) + "…" : after, word()));
     ++at_;
   }
 
@@ -256,6 +257,8 @@ class Reader {
     std::set<std::string> taken(out_.names.begin(), out_.names.end());
     std::set<std::string> seen;
     std::map<std::string, int> next;  // number of a base's next double
+    constexpr std::size_t told_one_by_one = 10;
+    std::size_t changed = 0;
     for (std::size_t j = 0; j < out_.names.size(); ++j) {
       std::string& name = out_.names[j];
       bool empty = name.empty();
@@ -265,14 +268,19 @@ class Reader {
       std::string unique;
       do unique = fmt::format("{}_{}", base, ++number);
       while (taken.count(unique));
-      work_.report(warning(empty ? "empty-name" : "duplicate-joint",
-                           empty ? fmt::format("a joint without a name is called {}", unique)
-                                 : fmt::format("a second joint {} is called {}", name, unique))
-                       .in_file({}, place_in(text_, name_places_[j])));
+      if (++changed <= told_one_by_one)
+        work_.report(warning(empty ? "empty-name" : "duplicate-joint",
+                             empty ? fmt::format("a joint without a name is called {}", unique)
+                                   : fmt::format("a second joint {} is called {}", name, unique))
+                         .in_file({}, place_in(text_, name_places_[j])));
       name = unique;
       taken.insert(unique);
       seen.insert(unique);
     }
+    if (changed > told_one_by_one)
+      work_.report(warning(
+          "duplicate-joint",
+          fmt::format("{} more joints without a name of their own got one so", changed - told_one_by_one)));
     if (not_utf8_) work_.report(warning("not-utf8", "joint names that aren't UTF-8 are taken as Latin-1"));
   }
 

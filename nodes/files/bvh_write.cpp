@@ -15,6 +15,11 @@ namespace kinegraph {
 
 namespace {
 
+// Depth in tabs, as far as an eye follows; a chain of ten thousand joints would be all tabs.
+std::string tabs_of(std::size_t depth) {
+  return std::string(std::min<std::size_t>(depth, 64), '\t');
+}
+
 void append_offset(std::string& out, Vec3 offset) {
   out += "OFFSET ";
   append_shortest(out, offset.x);
@@ -47,7 +52,7 @@ void append_hierarchy(std::string& out, const BvhLayout& layout, Work& work) {
   std::vector<Open> open;
   auto begin = [&](int j) {
     const BvhLayout::Joint& joint = layout.joints[j];
-    const std::string tabs(open.size(), '\t');
+    const std::string tabs = tabs_of(open.size());
     out += tabs + (j == 0 ? "ROOT " : "JOINT ") + name_for_bvh(joint.name, work) + '\n' + tabs + "{\n" +
            tabs + '\t';
     append_offset(out, joint.offset);
@@ -64,14 +69,14 @@ void append_hierarchy(std::string& out, const BvhLayout& layout, Work& work) {
       begin(children[top.joint][top.next_child++]);
       continue;
     }
-    const std::string tabs(open.size(), '\t');
+    const std::string tabs = tabs_of(open.size());
     for (Vec3 end : layout.joints[top.joint].ends) {
       out += tabs + "End Site\n" + tabs + "{\n" + tabs + '\t';
       append_offset(out, end);
       out += tabs + "}\n";
     }
     open.pop_back();
-    out += std::string(open.size(), '\t') + "}\n";
+    out += tabs_of(open.size()) + "}\n";
   }
 }
 

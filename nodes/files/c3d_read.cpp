@@ -152,6 +152,11 @@ Points read_c3d(std::string_view all, const ReadOptions& options, Work& work) {
       }
     }
   }
+  if (file.header.analog_per_frame > 0)
+    work.report(
+        info("analog-left-out", fmt::format("the file's analog data (force plates, muscles; {} values a "
+                                            "frame) is not read",
+                                            file.header.analog_per_frame)));
   return settled(std::move(points), unit, up_of(file), options, work);
 }
 

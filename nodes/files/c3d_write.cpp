@@ -11,6 +11,14 @@ namespace kinegraph {
 namespace {
 
 constexpr std::size_t block = 512;
+constexpr std::size_t most_bytes_of_label = 120;
+
+// No more bytes than a label may have, and no character in halves.
+std::string cut_label(const std::string& label) {
+  std::size_t end = std::min(label.size(), most_bytes_of_label);
+  while (end < label.size() && end > 0 && (static_cast<unsigned char>(label[end]) & 0xC0) == 0x80) --end;
+  return label.substr(0, end);
+}
 
 // Little-endian, as Intel writes it.
 class C3dOut {
@@ -74,11 +82,10 @@ void put_texts(C3dOut& out, std::string_view name, const std::vector<std::string
   for (std::size_t first = 0, k = 1; first < all.size() || k == 1; first += 255, ++k) {
     const std::size_t count = std::min<std::size_t>(255, all.size() - first);
     std::size_t width = 1;
-    for (std::size_t i = 0; i < count; ++i)
-      width = std::max(width, std::min<std::size_t>(120, all[first + i].size()));
+    for (std::size_t i = 0; i < count; ++i) width = std::max(width, cut_label(all[first + i]).size());
     std::string data;
     for (std::size_t i = 0; i < count; ++i) {
-      std::string text = all[first + i].substr(0, width);
+      std::string text = cut_label(all[first + i]);
       text.resize(width, ' ');
       data += text;
     }
@@ -93,6 +100,9 @@ std::string write_c3d(const Points& points, const WriteOptions& options, Work& w
   const LengthUnit unit = unit_to_write(points, options, true);
   if (points.labels.size() > 0xFFFF)
     throw Failure(error("too-many-points", "a C3D holds 65535 points at most"));
+  for (const std::string& label : points.labels)
+    if (label.size() > most_bytes_of_label)
+      work.report(warning("label-cut", "a C3D's labels are cut off after 120 bytes, first of " + label));
   C3dOut section;
   section.byte(1);
   section.byte(0x50);

@@ -232,17 +232,7 @@ GltfContents read_fbx(std::string_view bytes, const ReadOptions& options, FileAc
   add_meshes(out, scene);
   add_clips(out, scene, rest, work);
 
-  std::string names;
-  bool sparse = false;
-  for (const FbxScene::Clip& clip : scene.clips) {
-    names += (names.empty() ? "" : ", ") + clip.name;
-    sparse = sparse || clip.sparse;
-  }
-  if (scene.clips.size() > 1)
-    work.report(info("clips", fmt::format("the file has {} clips: {}", scene.clips.size(), names))
-                    .hinting("set clip")
-                    .at_param("clip"));
-  if (sparse)
+  if (std::any_of(scene.clips.begin(), scene.clips.end(), [](const auto& clip) { return clip.sparse; }))
     work.report(warning("sparse-keys", "frames between keys are taken as straight, not by the file's curves")
                     .hinting("bake the animation, a key a frame, when the FBX is written"));
   ReadOptions in_metres = options;

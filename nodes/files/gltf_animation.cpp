@@ -111,6 +111,19 @@ const tinygltf::Animation* chosen_clip(const tinygltf::Model& model, const std::
           .at_param("clip"));
 }
 
+// Of several clips only one is read, which nobody may have meant.
+void tell_other_clips(const std::vector<tinygltf::Animation>& all, Work& work) {
+  constexpr std::size_t shown = 8;
+  std::string names;
+  for (std::size_t i = 0; i < all.size() && i < shown; ++i)
+    names += (i > 0 ? ", " : "") + (all[i].name.empty() ? std::to_string(i) : all[i].name);
+  if (all.size() > shown) names += fmt::format(" and {} more", all.size() - shown);
+  work.report(
+      info("clips", fmt::format("the file has {} clips, of which the first is read: {}", all.size(), names))
+          .hinting("set clip")
+          .at_param("clip"));
+}
+
 // The lowest whole rate on whose frames all times lie; 0 = none.
 double rate_of_keys(const std::set<double>& times) {
   for (int rate = 24; rate <= 240; ++rate)
@@ -138,6 +151,7 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
                    const ReadOptions& options, double rate, Work& work) {
   const tinygltf::Model& model = *file.model;
   const tinygltf::Animation* clip = chosen_clip(model, options.clip);
+  if (options.clip.empty() && model.animations.size() > 1) tell_other_clips(model.animations, work);
   const auto source = std::make_shared<const SourceFacts>(facts);
   std::vector<Channel> channels;
   KeyTimes key_times(file);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "nodes/motion/elementary.h"
@@ -133,10 +134,12 @@ GltfNodes gltf_nodes(const GltfFile& file, double metres, Work& work) {
 
   Skeleton skeleton;
   std::set<std::string> names;
+  std::map<std::string, int> last_number;
   auto unique = [&](std::string name, const std::string& otherwise) {
     if (name.empty()) name = otherwise;
     std::string free = name;
-    for (int k = 2; !names.insert(free).second; ++k) free = fmt::format("{}_{}", name, k);
+    while (!names.insert(free).second)
+      free = fmt::format("{}_{}", name, ++last_number.try_emplace(name, 1).first->second);
     return free;
   };
   out.joint_of_node.assign(order.size(), -1);

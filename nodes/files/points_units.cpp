@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "nodes/files/decimal.h"
@@ -136,18 +137,23 @@ double rate_of_times(std::span<const double> times, int decimals) {
 }
 
 void make_labels_unique(std::vector<std::string>& labels, Work& work) {
+  constexpr std::size_t shown = 8;
   std::set<std::string> seen;
-  std::string changed;
+  std::map<std::string, int> last_number;
+  std::string told;
+  std::size_t changed = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const std::string wanted = labels[i].empty() ? fmt::format("point{}", i + 1) : labels[i];
     std::string name = wanted;
-    for (int k = 2; !seen.insert(name).second; ++k) name = fmt::format("{}_{}", wanted, k);
-    if (!labels[i].empty() && name != labels[i])
-      changed += fmt::format("{}{}", changed.empty() ? "" : ", ", name);
+    while (!seen.insert(name).second)
+      name = fmt::format("{}_{}", wanted, ++last_number.try_emplace(wanted, 1).first->second);
+    if (!labels[i].empty() && name != labels[i] && ++changed <= shown)
+      told += fmt::format("{}{}", told.empty() ? "" : ", ", name);
     labels[i] = name;
   }
-  if (!changed.empty())
-    work.report(warning("duplicate-label", "labels that came twice were made unique: " + changed));
+  if (changed > shown) told += fmt::format(" and {} more", changed - shown);
+  if (changed > 0)
+    work.report(warning("duplicate-label", "labels that came twice were made unique: " + told));
 }
 
 }  // namespace kinegraph

@@ -187,9 +187,12 @@ std::string write_trc(const Points& points, std::string_view name, const WriteOp
   out += fmt::format("{0}\t{0}\t{1}\t{2}\t{3}\t{0}\t1\t{1}\n", rate, points.frames, points.labels.size(),
                      unit.name);
   out += "Frame#\tTime";
+  const auto ends_cell = [](char c) { return c == '\t' || is_line_end(c); };
   for (std::string label : points.labels) {
-    std::replace_if(
-        label.begin(), label.end(), [](char c) { return c == '\t' || is_line_end(c); }, ' ');
+    if (std::any_of(label.begin(), label.end(), ends_cell)) {
+      std::replace_if(label.begin(), label.end(), ends_cell, ' ');
+      work.report(warning("label-changed", "a TRC's labels hold no tabs and no line ends: now " + label));
+    }
     out += '\t' + label + "\t\t";
   }
   out += "\n\t";

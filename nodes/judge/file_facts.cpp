@@ -9,6 +9,7 @@
 #include "nodes/files/length_unit.h"
 #include "nodes/files/rest_frame.h"
 #include "nodes/judge/other_programs.h"
+#include "nodes/motion/body.h"
 #include "nodes/motion/character.h"
 #include "nodes/motion/fill_gaps.h"
 #include "nodes/motion/kinematics.h"
@@ -82,11 +83,13 @@ double height_in(const Motion& motion, std::size_t frame) {
   return high > low ? high - low : 0;
 }
 
+// Of the hips: some rigs keep their root where it is.
 double travel_of(const Motion& motion, std::size_t first) {
   const WorldMotion world = world_motion(motion);
+  const int joint = std::max(0, find_body(motion.skeleton()).pelvis);
   double sum = 0;
   for (std::size_t t = first + 1; t < motion.frames() && world.joints() > 0; ++t) {
-    Vec3 step = world.position(0)[t] - world.position(0)[t - 1];
+    Vec3 step = world.position(joint)[t] - world.position(joint)[t - 1];
     step.y = 0;
     sum += norm(step);
   }
@@ -198,8 +201,10 @@ FileFacts facts_of(const MotionFile& file, const std::string& path, FileAccess& 
   FileFacts facts;
   facts.format = file.format;
   facts.ports = file.ports();
-  // Told here in another way, for all gaps.
-  std::erase_if(told, [](const Diagnostic& one) { return one.code == "long-gap"; });
+  // Told here in another way: all gaps, all clips.
+  std::erase_if(told, [&](const Diagnostic& one) {
+    return one.code == "long-gap" || (one.code == "clips" && file.format == "gltf");
+  });
   facts.told = std::move(told);
   if (const Motion* motion = file.motion()) {
     facts.frames = motion->frames();
@@ -220,6 +225,7 @@ FileFacts facts_of(const MotionFile& file, const std::string& path, FileAccess& 
     facts.up = points->up == UpAxis::y ? "Y" : "Z";
     facts.points = points_facts(*points);
     facts.breaks = breaks_of(*points, work);
+    for (Diagnostic& one : for_other_programs(*points)) facts.told.push_back(std::move(one));
   }
   if (facts.motion)
     if (auto odd = odd_size(facts)) facts.told.push_back(std::move(*odd));

@@ -16,7 +16,7 @@ struct MotionFacts {
   double rest_height = 0;   // m, End Sites included
   double first_height = 0;  // m, of the joints in the first frame, a T-pose left out
   double leg_length = 0;    // m; 0 = no legs were found
-  double travel = 0;        // m, how far the root goes over the ground, along its path
+  double travel = 0;        // m, how far the hips, else the root, go over the ground
   bool rest_frame = false;  // frame 0 looks like a T-pose
   // Each joint's channels in the file, in order, of a BVH ("Zrotation") and of Acclaim's dof ("rz"); else
   // empty.

@@ -125,7 +125,9 @@ std::string skeleton_tree(const Skeleton& skeleton) {
     const Open top = open.back();
     open.pop_back();
     const Joint& joint = skeleton.joints[top.joint];
-    text += fmt::format("{}{}  {:.3f} {:.3f} {:.3f}\n", std::string(2 * top.depth, ' '), joint.name,
+    // A chain of ten thousand would be a hundred megabytes of blanks.
+    text += fmt::format("{}{}  {:.3f} {:.3f} {:.3f}\n",
+                        std::string(2 * std::min<std::size_t>(top.depth, 64), ' '), joint.name,
                         joint.offset.x, joint.offset.y, joint.offset.z);
     for (int child : children[top.joint]) open.push_back({child, top.depth + 1});
   }

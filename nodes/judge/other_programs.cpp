@@ -63,6 +63,34 @@ bool legs_along_z(const Motion& motion) {
   return 2 * along > looked_at;
 }
 
+// Whether a cloud of markers is longest along Z, in most of the frames that show at least half of it: no
+// figure on its feet is, taken as it stands.
+bool points_along_z(const Points& points) {
+  constexpr std::size_t looked_at = 60, few = 8;
+  const int labels = static_cast<int>(points.labels.size());
+  if (points.labels.size() < few) return false;
+  std::size_t seen = 0, along = 0;
+  const std::size_t step = std::max<std::size_t>(1, points.frames / looked_at);
+  for (std::size_t t = 0; t < points.frames; t += step) {
+    Vec3 low, high;
+    int there = 0;
+    for (int label = 0; label < labels; ++label) {
+      if (points.is_missing(label, t)) continue;
+      const Vec3 p = points.track(label)[t];
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = there ? std::min(low[axis], p[axis]) : p[axis];
+        high[axis] = there ? std::max(high[axis], p[axis]) : p[axis];
+      }
+      ++there;
+    }
+    if (2 * there < labels) continue;
+    const Vec3 size = high - low;
+    ++seen;
+    along += size.z > 1.8 * size.y && size.z > 1.4 * size.x;
+  }
+  return 3 * along > 2 * seen;
+}
+
 }  // namespace
 
 std::string some_of(const std::vector<std::string>& names) {
@@ -121,6 +149,15 @@ Diagnostics for_other_programs(const Motion& motion) {
         "no-end-site",
         "joints at the end of a chain have no End Site, so programs guess their bone: " + some_of(bare)));
   return found;
+}
+
+Diagnostics for_other_programs(const Points& points) {
+  if (!points_along_z(points)) return {};
+  const bool z = points.up == UpAxis::z;
+  return {warning("up-axis", fmt::format("the points stretch along the file's {}, and it is read as {} up",
+                                         z ? "Y" : "Z", z ? "Z" : "Y"))
+              .hinting(fmt::format("set up to {} where the figure lies down", z ? "y" : "z"))
+              .at_param("up")};
 }
 
 Diagnostics for_other_programs(const Character& character) {

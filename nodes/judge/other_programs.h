@@ -3,6 +3,7 @@
 #include "graph/diagnostic.h"
 #include "nodes/motion/character.h"
 #include "nodes/motion/motion.h"
+#include "nodes/motion/points.h"
 
 namespace kinegraph {
 
@@ -12,6 +13,8 @@ namespace kinegraph {
 // hardly turns, which programs that interpolate channels take for a turn. no-end-site: chains that end in a
 // joint. up-axis: the legs point along Z.
 Diagnostics for_other_programs(const Motion& motion);
+// up-axis: the points stretch along Z as a standing figure's do along its height.
+Diagnostics for_other_programs(const Points& points);
 // morph-weights: Blender holds the weights of morph targets between 0 and 1.
 Diagnostics for_other_programs(const Character& character);
 

@@ -85,6 +85,9 @@ std::vector<Leg> legs_by_geometry(const Skeleton& skeleton, const std::vector<bo
     if (skeleton.children(j).empty()) leaves.push_back(j);
   std::stable_sort(leaves.begin(), leaves.end(),
                    [&](int a, int b) { return pose.positions[a].y < pose.positions[b].y; });
+  // Feet are among the lowest of them; all pairs of ten thousand leaves would take a minute.
+  constexpr std::size_t most = 256;
+  leaves.resize(std::min(leaves.size(), most));
   // Two leaves in the lowest fifth whose chains part at one joint, reach equally low and are equally long.
   double low = leaves.empty() ? 0 : pose.positions[leaves[0]].y;
   for (std::size_t i = 0; i < leaves.size(); ++i) {

@@ -231,5 +231,23 @@ TEST(Gltf, IsRefusedOrReadWhereItIsDamaged) {
   }
 }
 
+TEST(Gltf, TellsThatItHasMoreClipsThanTheOneThatIsRead) {
+  KINEGRAPH_NEEDS_MOCAP();
+  const auto told = [](const char* path, const char* clip) {
+    PlainFiles files;
+    Alone work;
+    ReadOptions options;
+    options.clip = clip;
+    read_motion_file(mocap(path), options, files, work);
+    std::string all;
+    for (const Diagnostic& one : work.reported)
+      if (one.code == "clips") all += one.message;
+    return all;
+  };
+  EXPECT_EQ(told("gltf/Fox.glb", ""), "the file has 3 clips, of which the first is read: Survey, Walk, Run");
+  EXPECT_EQ(told("gltf/Fox.glb", "Walk"), "");
+  EXPECT_EQ(told("gltf/CesiumMan.glb", ""), "");
+}
+
 }  // namespace
 }  // namespace kinegraph

@@ -200,6 +200,15 @@ TEST(C3d, HoldsMoreLabelsAndFramesThanOneParameterDoes) {
   EXPECT_EQ(read_c3d(write_c3d(longer, {}, work), {}, work).frames, 70000u);
 }
 
+TEST(PointsFiles, TellLabelsThatTheyCannotHoldAsTheyAre) {
+  Alone work;
+  Points points({std::string(119, 'x') + "腰", "left\tarm"}, 60, 2);
+  const Points back = read_c3d(write_c3d(points, {}, work), {}, work);
+  EXPECT_EQ(back.labels[0], std::string(119, 'x'));  // no half of a character
+  write_trc(points, "x", {}, work);
+  EXPECT_EQ(codes(work), "label-cut label-changed");
+}
+
 TEST(C3d, IsRefusedWhereItIsDamaged) {
   Alone work;
   const std::string whole = write_c3d(two_markers(), {}, work);

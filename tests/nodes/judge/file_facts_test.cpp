@@ -73,6 +73,28 @@ TEST(FileFacts, OfMarkersCountWhatIsMissingInTheFile) {
   EXPECT_NEAR(trial.facts.points->height, 0.93, 0.01);
 }
 
+// Bandai-Namco's root stays at the origin while the hips walk off.
+TEST(FileFacts, TellHowFarTheHipsGoWhereTheRootStays) {
+  KINEGRAPH_NEEDS_MOCAP();
+  EXPECT_GT(told_of("bandai/dataset-1_walk_normal_001.bvh").facts.motion->travel, 1);
+}
+
+TEST(FileFacts, OfMarkersTellWhetherTheFigureLiesDown) {
+  KINEGRAPH_NEEDS_MOCAP();
+  for (const char* lying : {"points/std_walking2_markers.trc", "points/dataWithBlanksForMissingMarkers.trc",
+                            "odd/Dance_badstart.c3d"})
+    EXPECT_THAT(codes(told_of(lying).facts), HasSubstr("up-axis")) << lying;
+  for (const char* standing : {"points/walking2.c3d", "points/cmu_02_01.c3d", "points/Eb015pi.c3d",
+                               "points/face_jaw.trc", "points/gait10dof18musc_walk_CRLF_line_ending.trc"})
+    EXPECT_THAT(codes(told_of(standing).facts), testing::Not(HasSubstr("up-axis"))) << standing;
+}
+
+TEST(FileFacts, OfC3dTellThatAnalogDataIsNotRead) {
+  KINEGRAPH_NEEDS_MOCAP();
+  EXPECT_THAT(codes(told_of("points/walking2.c3d").facts), HasSubstr("analog-left-out"));
+  EXPECT_THAT(codes(told_of("points/cmu_02_01.c3d").facts), testing::Not(HasSubstr("analog-left-out")));
+}
+
 TEST(FileFacts, OfMorphTargetsTellWeightsThatBlenderDoesNotReach) {
   auto face = std::make_shared<Character>();
   face->parts.emplace_back().morphs = {{"brow", {}, {}}, {"jaw", {}, {}}};
