@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "graph/diagnostic.h"
 #include "nodes/files/c3d.h"
@@ -150,7 +153,15 @@ std::string write_c3d(const Points& points, const WriteOptions& options, Work& w
     for (int label = 0; label < static_cast<int>(points.labels.size()); ++label) {
       const bool missing = points.is_missing(label, t);
       const Vec3 place = missing ? Vec3{} : in_file(points.track(label)[t], unit, points.up);
-      for (int axis = 0; axis < 3; ++axis) out.real(place[axis]);
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!(std::fabs(place[axis]) <= std::numeric_limits<float>::max()))
+          throw Failure(error("too-large", fmt::format("a C3D's numbers go to {:g}, here is {:g}",
+                                                       std::numeric_limits<float>::max(), place[axis]))
+                            .hinting("write a larger unit, or another format")
+                            .at_joint(points.labels[label])
+                            .at_frame(static_cast<std::int64_t>(t)));
+        out.real(place[axis]);
+      }
       out.real(missing ? -1 : 0);
     }
   }

@@ -190,6 +190,13 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
   const double last = times.empty() ? 0 : *times.rbegin();
   if (!(last * fps < 1e8)) bad_gltf("the animation is too long");
   const std::size_t whole = static_cast<std::size_t>(std::floor(std::max(last, 0.0) * fps + 1e-3)) + 1;
+  // A single stray key would be hours of frames; whoever means them can say which.
+  if (whole > 1'000'000 && whole / 100 > times.size() && !cut)
+    throw Failure(
+        error("too-long", fmt::format("the clip's {} keys last until {:g} s, {} frames at {:g} a second",
+                                      times.size(), last, whole, fps))
+            .hinting("set range to the frames that are meant, or fps to fewer a second")
+            .at_param("range"));
   const FrameWindow window = frames_to_keep(options, whole);
   const std::size_t frames = window.last - window.first;
   auto time_of = [&](std::size_t t) { return static_cast<double>(window.first + t) / fps; };

@@ -132,7 +132,7 @@ Points read_points_table(std::string_view text, const ReadOptions& options, Work
       const std::string_view cell = trimmed(cells[i]);
       empty[i] = cell.empty() || lower_case(cell) == "nan";
       if (!empty[i] && (!whole_number_text(cell, row[i]) || !std::isfinite(row[i])))
-        fail_at(text, cell.data(), "bad-number", word_at(text, cell.data()) + " is no number");
+        fail_no_number(text, cell);
     }
     if (columns.time) {
       const std::string_view cell = trimmed(cells[*columns.time]);

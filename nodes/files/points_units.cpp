@@ -156,4 +156,12 @@ void make_labels_unique(std::vector<std::string>& labels, Work& work) {
     work.report(warning("duplicate-label", "labels that came twice were made unique: " + told));
 }
 
+void fail_no_number(std::string_view text, std::string_view cell) {
+  if (cell.find_first_not_of("0123456789+-.,eE") == std::string_view::npos &&
+      cell.find(',') != std::string_view::npos)
+    fail_at(text, cell.data(), "decimal-comma", shown(cell) + " holds a decimal comma",
+            "write numbers with a point");
+  fail_at(text, cell.data(), "bad-number", shown(cell) + " is no number");
+}
+
 }  // namespace kinegraph

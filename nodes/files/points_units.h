@@ -34,4 +34,8 @@ double rate_of_times(std::span<const double> times, int decimals);
 // Labels made unique, empty ones named ("point7"); what was changed is warned about ("duplicate-label").
 void make_labels_unique(std::vector<std::string>& labels, Work& work);
 
+// A Failure about a cell of a table that is no number, at its place in `text`: "decimal-comma" or
+// "bad-number".
+[[noreturn]] void fail_no_number(std::string_view text, std::string_view cell);
+
 }  // namespace kinegraph

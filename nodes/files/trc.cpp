@@ -92,8 +92,7 @@ struct Rows {
 bool read_cell(std::string_view text, std::string_view cell, double& value) {
   cell = trimmed(cell);
   if (cell.empty() || lower_case(cell) == "nan") return false;
-  if (!whole_number_text(cell, value) || !std::isfinite(value))
-    fail_at(text, cell.data(), "bad-number", word_at(text, cell.data()) + " is no number");
+  if (!whole_number_text(cell, value) || !std::isfinite(value)) fail_no_number(text, cell);
   return true;
 }
 

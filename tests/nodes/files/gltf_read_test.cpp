@@ -186,6 +186,22 @@ TEST(Gltf, SamplesStepLinearAndCubicSplines) {
   EXPECT_NEAR(root_x(spline, 0.75), 2.5, 1e-7);
 }
 
+TEST(Gltf, WithAStrayKeyFarOffIsReadOnlyInTheRangeThatIsAskedFor) {
+  SmallGltf gltf;
+  const int times = gltf.add({0, 1e6f}, "SCALAR", 1);
+  const std::string far = clip("LINEAR", "translation", 2, times, gltf.add({0, 0, 0, 8, 0, 0}, "VEC3", 3));
+  try {
+    gltf.read(far);
+    ADD_FAILURE();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.diagnostic().code, "too-long");
+    EXPECT_EQ(failure.diagnostic().param, "range");
+  }
+  ReadOptions options;
+  options.range = {0, 100};
+  EXPECT_EQ(gltf.read(far, options).motion.frames(), 100u);
+}
+
 TEST(Gltf, FollowsSparseEntriesAndStridesAndNormalisedNumbers) {
   std::string binary(64, '\0');
   auto put = [&](std::size_t at, auto value) { std::memcpy(binary.data() + at, &value, sizeof value); };

@@ -200,6 +200,26 @@ TEST(C3d, HoldsMoreLabelsAndFramesThanOneParameterDoes) {
   EXPECT_EQ(read_c3d(write_c3d(longer, {}, work), {}, work).frames, 70000u);
 }
 
+TEST(PointsFiles, OfACommaDecimalProgramAreRefusedAsSuch) {
+  Alone work;
+  const Diagnostic table =
+      refusal([&] { read_points_table("frame;time;a.x;a.y;a.z\n0;0;1;2,5;3\n", {}, work); });
+  EXPECT_EQ(table.code, "decimal-comma");
+  EXPECT_EQ(table.place.line, 2);
+  EXPECT_EQ(table.place.column, 7);
+  EXPECT_EQ(refusal([&] { read_trc(trc_text("1\t0,0\t1\t2\t3\t4\t5\t6\n", "1"), {}, work); }).code,
+            "decimal-comma");
+}
+
+TEST(C3d, RefusesNumbersThatSinglePrecisionDoesNotHold) {
+  Alone work;
+  Points points({"far"}, 60, 2);
+  points.track(0).set(1, {0, 1e39, 0});
+  const Diagnostic told = refusal([&] { write_c3d(points, {}, work); });
+  EXPECT_EQ(told.code, "too-large");
+  EXPECT_EQ(told.frame, 1);
+}
+
 TEST(PointsFiles, TellLabelsThatTheyCannotHoldAsTheyAre) {
   Alone work;
   Points points({std::string(119, 'x') + "腰", "left\tarm"}, 60, 2);
