@@ -126,7 +126,7 @@ TEST(Trc, IsRefusedWhereItIsDamaged) {
   EXPECT_EQ(few.code, "too-few-values");
   EXPECT_EQ(few.place.line, 7);
   const Diagnostic word = code(trc_text("1\t0\t1\t2\t3,5\t4\t5\t6\n", "1"));
-  EXPECT_EQ(word.code, "bad-number");
+  EXPECT_EQ(word.code, "decimal-comma");
   EXPECT_EQ(word.place.column, 9);
   EXPECT_EQ(code(trc_text("1\t0\t1\t2\tinf\t4\t5\t6\n", "1")).code, "bad-number");
 }
