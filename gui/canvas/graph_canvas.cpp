@@ -10,6 +10,7 @@ namespace {
 constexpr int steps_a_doubling = 4;
 constexpr int smallest_step = -12, largest_step = 6;  // zoom 1/8 to 2.8
 constexpr int rest_after_ms = 120;
+constexpr int states_ms = 30;  // nodes' states may come in so much later, many at once
 
 }  // namespace
 
@@ -51,8 +52,11 @@ GraphCanvas::GraphCanvas(Session& session, Evaluation& evaluation, QWidget* pare
   });
   connect(&evaluation_, &Evaluation::status_changed, this, [this](const QString& node) {
     pixmaps_.forget(node.toStdString());
-    update();
+    if (!states_due_.isActive()) states_due_.start();
   });
+  states_due_.setSingleShot(true);
+  states_due_.setInterval(states_ms);
+  connect(&states_due_, &QTimer::timeout, this, QOverload<>::of(&QWidget::update));
   find_problems();
   rebuild();
 }

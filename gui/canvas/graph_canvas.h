@@ -140,7 +140,7 @@ class GraphCanvas : public QWidget {
   int zoom_step_ = 0;
   double wheel_left_ = 0;
   bool resting_ = true, space_ = false, framed_once_ = false;
-  QTimer rest_;
+  QTimer rest_, states_due_;
   std::unique_ptr<CanvasGesture> gesture_;
   std::optional<PortAt> hover_;
   std::string hover_node_;

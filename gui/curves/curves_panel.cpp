@@ -223,9 +223,14 @@ void CurvesPanel::find_wanted() {
   offers_ = std::move(offers);
   {
     const QSignalBlocker quiet(what_);
-    what_->clear();
+    QStringList names, there;
+    for (const Offer& one : offers_) names << one.name;
+    for (int i = 0; i < what_->count(); ++i) there << what_->itemText(i);
+    if (names != there) {  // else every step of a drag would lay out the dock anew
+      what_->clear();
+      what_->addItems(names);
+    }
     int index = 0;
-    for (const Offer& one : offers_) what_->addItem(one.name);
     for (std::size_t i = 0; i < offers_.size(); ++i)
       if (QString::fromStdString(offers_[i].type) == looked_at_) {
         index = static_cast<int>(i);
@@ -246,7 +251,7 @@ void CurvesPanel::find_wanted() {
 }
 
 void CurvesPanel::tell(const QString& words) {
-  empty_->setText(words);
+  if (empty_->text() != words) empty_->setText(words);
   pages_->setCurrentIndex(words_page);
 }
 

@@ -88,43 +88,39 @@ ProblemsPanel::ProblemsPanel(Session& session, Evaluation& evaluation, QWidget* 
 
 void ProblemsPanel::set_theme(const Theme& theme) {
   theme_ = &theme;
+  shown_.clear();
+  list_->clear();
   fill();
 }
 
-void ProblemsPanel::fill() {
-  list_->clear();
-  int errors = 0, warnings = 0;
-  std::set<std::string> said;
-  const auto add_row = [&](const Diagnostic& problem, const QString& where) {
-    auto* item = new QTreeWidgetItem({where, problem_text(problem), advice_on(problem)});
-    item->setIcon(0, mark(problem.severity == Severity::error     ? theme_->error
-                          : problem.severity == Severity::warning ? theme_->warning
-                                                                  : theme_->accent));
-    for (int column = 0; column < 3; ++column) item->setToolTip(column, item->text(column));
-    list_->addTopLevelItem(item);
-    return item;
-  };
-  const auto add = [&](const Diagnostic& problem, const std::string& node) {
-    // The structure's check and the run may say the same of one parameter in other words.
-    const std::string about = node + "\n" + problem.code + "\n" + problem.param + problem.port + "\n";
-    if (!said.insert(problem.param.empty() ? about + problem.message : about).second) return;
-    errors += problem.severity == Severity::error;
-    warnings += problem.severity == Severity::warning;
-    QString where = QString::fromStdString(node);
-    if (const std::string& part = problem.port.empty() ? problem.param : problem.port; !part.empty())
-      where += "." + QString::fromStdString(part);
-    add_row(problem, where)->setData(0, Qt::UserRole, QString::fromStdString(node));
-  };
+std::vector<ProblemsPanel::Row> ProblemsPanel::rows() const {
+  std::vector<Row> rows;
   // A file that was asked for and can't be opened comes first, named short.
   const Session::Refused& refused = session_.refused_file();
   const QString file = QFileInfo(refused.path).fileName();
   for (const Diagnostic& problem : refused.problems) {
-    errors += problem.severity == Severity::error;
-    warnings += problem.severity == Severity::warning;
     const QString where = place_of(problem);
-    add_row(problem, where.isEmpty() ? file : file + ": " + where)
-        ->setToolTip(0, QDir::toNativeSeparators(refused.path));
+    rows.push_back({problem.severity,
+                    where.isEmpty() ? file : file + ": " + where,
+                    problem_text(problem),
+                    advice_on(problem),
+                    QDir::toNativeSeparators(refused.path),
+                    {}});
   }
+  std::set<std::string> said;
+  const auto add = [&](const Diagnostic& problem, const std::string& node) {
+    // The structure's check and the run may say the same of one parameter in other words.
+    const std::string about = node + "\n" + problem.code + "\n" + problem.param + problem.port + "\n";
+    if (!said.insert(problem.param.empty() ? about + problem.message : about).second) return;
+    const QString name = QString::fromStdString(node);
+    const std::string& part = problem.port.empty() ? problem.param : problem.port;
+    rows.push_back({problem.severity,
+                    part.empty() ? name : name + "." + QString::fromStdString(part),
+                    problem_text(problem),
+                    advice_on(problem),
+                    {},
+                    name});
+  };
   for (const Severity severity : {Severity::error, Severity::warning, Severity::info}) {
     for (const Diagnostic& problem : session_.problems())
       if (problem.severity == severity) add(problem, problem.node);
@@ -135,7 +131,30 @@ void ProblemsPanel::fill() {
     for (const Diagnostic& problem : evaluation_.log().diagnostics)
       if (problem.severity == severity) add(problem, problem.node);
   }
-  static_cast<QStackedLayout*>(layout())->setCurrentIndex(list_->topLevelItemCount() ? 0 : 1);
+  return rows;
+}
+
+// Evaluation tells of itself many times a second; mostly nothing is new here.
+void ProblemsPanel::fill() {
+  std::vector<Row> fresh = rows();
+  const bool same = fresh == shown_;
+  shown_ = std::move(fresh);
+  static_cast<QStackedLayout*>(layout())->setCurrentIndex(shown_.empty() ? 1 : 0);
+  if (same) return;
+  list_->clear();
+  int errors = 0, warnings = 0;
+  for (const Row& row : shown_) {
+    errors += row.severity == Severity::error;
+    warnings += row.severity == Severity::warning;
+    auto* item = new QTreeWidgetItem({row.where, row.what, row.advice});
+    item->setIcon(0, mark(row.severity == Severity::error     ? theme_->error
+                          : row.severity == Severity::warning ? theme_->warning
+                                                              : theme_->accent));
+    for (int column = 0; column < 3; ++column) item->setToolTip(column, item->text(column));
+    if (!row.file.isEmpty()) item->setToolTip(0, row.file);
+    item->setData(0, Qt::UserRole, row.node);
+    list_->addTopLevelItem(item);
+  }
   emit counted(errors, warnings);
 }
 

@@ -24,6 +24,12 @@ class ProblemsPanel : public QWidget {
   void counted(int errors, int warnings);
 
  private:
+  struct Row {
+    Severity severity = Severity::error;
+    QString where, what, advice, file, node;  // `file`: the whole path of one that can't be opened
+    bool operator==(const Row&) const = default;
+  };
+  std::vector<Row> rows() const;
   void fill();
   Session& session_;
   Evaluation& evaluation_;
@@ -31,6 +37,7 @@ class ProblemsPanel : public QWidget {
   QTreeWidget* list_;
   QLabel* none_;
   QTimer due_;
+  std::vector<Row> shown_;
 };
 
 }  // namespace kinegraph

@@ -121,6 +121,12 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
     update_progress();
     if (effects) ran_effects();
   });
+  slow_.setSingleShot(true);
+  slow_.setInterval(120);
+  connect(&slow_, &QTimer::timeout, this, [this] {
+    is_slow_ = true;
+    update_progress();
+  });
   reload_.setSingleShot(true);
   reload_.setInterval(150);
   connect(&watcher_, &QFileSystemWatcher::fileChanged, this, &MainWindow::file_changed_on_disk);
@@ -208,9 +214,17 @@ void MainWindow::evaluate() {
 void MainWindow::update_progress() {
   progress_due_ = false;
   const bool reads = session_.is_reading_inside(), busy = reads || evaluation_.is_busy();
+  actions_.at("cancel")->setEnabled(busy);
+  // What is over in a moment is not worth a word: the status bar would flicker at every step of a drag.
+  if (!busy) {
+    slow_.stop();
+    is_slow_ = false;
+  } else if (!is_slow_) {
+    if (!slow_.isActive()) slow_.start();
+    return;
+  }
   progress_->setVisible(busy);
   progress_->setRange(0, reads ? 0 : 1000);
-  actions_.at("cancel")->setEnabled(busy);
   double sum = 0;
   int running = 0, failed = 0, blocked = 0, incomplete = 0;
   QString name;

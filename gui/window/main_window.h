@@ -129,9 +129,10 @@ class MainWindow : public QMainWindow {
   std::vector<std::function<void(const Theme&)>> themed_;
   std::vector<std::function<std::vector<Target>()>> wants_;
   QFileSystemWatcher watcher_;
-  QTimer reload_;
+  QTimer reload_, slow_;
   KnownFiles known_files_;
   bool laid_out_ = false;  // the docks have their sizes
+  bool is_slow_ = false;   // what is evaluated takes long enough to be shown
   bool evaluation_due_ = false, progress_due_ = false, inside_changed_ = false;
 };
 

@@ -301,6 +301,7 @@ TEST(EditorPages, TheWindowLivesWhileManyFilesInsideAreRead) {
   editor.turns = 0;
   editor.session().reopen_inside();
   EXPECT_TRUE(editor.session().is_reading_inside());
+  EXPECT_TRUE(QTest::qWaitFor([&] { return editor.window.findChild<QProgressBar*>()->isVisible(); }, 60000));
   EXPECT_TRUE(QTest::qWaitFor([&] { return !editor.session().is_reading_inside(); }, 60000));
   EXPECT_GT(editor.turns, 10);
   EXPECT_TRUE(editor.all_read());
@@ -311,7 +312,6 @@ TEST(EditorPages, ReadingManyFilesInsideIsCancelledAndTakenUpAgain) {
   ASSERT_TRUE(editor.window.open(editor.path));
   editor.session().reopen_inside();
   ASSERT_TRUE(editor.session().is_reading_inside());
-  EXPECT_TRUE(editor.window.findChild<QProgressBar*>()->isVisible());
   editor.canvas().setFocus();
   editor.key(Qt::Key_Period, Qt::ControlModifier);
   EXPECT_FALSE(editor.session().is_reading_inside());
