@@ -66,8 +66,7 @@ void GraphCanvas::paint_frames(QPainter& p) {
     p.drawRoundedRect(box, 8, 8);
     p.setFont(ui_font(lettering, true));
     p.setPen(theme_->text);
-    p.drawText(QRectF(box.left() + 10, box.top(), box.width() - 20,
-                      30 * zoom_ < lettering + 4 ? lettering + 4 : 30 * zoom_),
+    p.drawText(QRectF(box.left() + 10, box.top(), box.width() - 20, std::max(34 * zoom_, lettering + 8)),
                Qt::AlignVCenter | Qt::TextSingleLine, frame.title);
   }
   for (const SceneNote& note : scene_.notes()) {

@@ -184,6 +184,8 @@ QString instead_of_still(NodeStatus::State state) {
       return QObject::tr("link what it needs");
     case State::failed:
       return QObject::tr("see Problems");
+    case State::done:
+      return QObject::tr("drawing its poses…");
     default:
       return {};
   }

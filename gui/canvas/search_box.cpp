@@ -63,7 +63,7 @@ SearchBox::SearchBox(QWidget* parent) : QFrame(parent) {
   help_->setObjectName("faint");
   help_->setWordWrap(true);
   help_->setAlignment(Qt::AlignTop);
-  help_->setFixedHeight(fontMetrics().lineSpacing() * 4 + 4);
+  help_->setFixedHeight(fontMetrics().lineSpacing() * 3 + 4);
   layout->addWidget(line_);
   layout->addWidget(list_);
   layout->addWidget(help_);
@@ -117,6 +117,8 @@ void SearchBox::filter() {
   }
   const int row = list_->fontMetrics().height() + 8;
   list_->setFixedHeight(std::clamp(list_->count(), 1, rows_seen) * row + 4);
+  help_->setVisible(list_->count() == 0 || std::any_of(entries_.begin(), entries_.end(),
+                                                       [](const Entry& e) { return !e.help.isEmpty(); }));
   resize(340, layout()->sizeHint().height());
   if (list_->count())
     list_->setCurrentRow(0);

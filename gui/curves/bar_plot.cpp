@@ -15,8 +15,9 @@ BarPlot::BarPlot(QWidget* parent) : QWidget(parent), theme_(&dark_theme()) {
   setAccessibleName(tr("Numbers as bars"));
 }
 
-void BarPlot::set_bars(std::vector<PlotBar> bars) {
+void BarPlot::set_bars(std::vector<PlotBar> bars, const QString& title) {
   bars_ = std::move(bars);
+  title_ = title;
   updateGeometry();
   update();
 }
@@ -27,7 +28,7 @@ void BarPlot::set_theme(const Theme& theme) {
 }
 
 QSize BarPlot::sizeHint() const {
-  return QSize(360, static_cast<int>(bars_.size()) * row + 2 * pad);
+  return QSize(360, static_cast<int>(bars_.size() + 1) * row + 2 * pad);
 }
 
 void BarPlot::paintEvent(QPaintEvent* event) {
@@ -43,9 +44,11 @@ void BarPlot::paintEvent(QPaintEvent* event) {
   }
   name_width = std::min(name_width, width() / 2);
   const double left = pad + name_width + 8, room = std::max(20.0, width() - left - number_width - 2 * pad);
+  painter.setPen(theme_->faint_text);
+  painter.drawText(QRectF(left, pad, width() - left - pad, row), Qt::AlignLeft | Qt::AlignVCenter, title_);
   for (std::size_t i = 0; i < bars_.size(); ++i) {
     const PlotBar& bar = bars_[i];
-    const double top = pad + static_cast<double>(i) * row;
+    const double top = pad + static_cast<double>(i + 1) * row;
     painter.setPen(theme_->text);
     painter.drawText(QRectF(pad, top, name_width, row), Qt::AlignRight | Qt::AlignVCenter,
                      fontMetrics().elidedText(bar.name, Qt::ElideMiddle, name_width));

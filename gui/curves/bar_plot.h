@@ -20,7 +20,7 @@ class BarPlot : public QWidget {
 
  public:
   explicit BarPlot(QWidget* parent = nullptr);
-  void set_bars(std::vector<PlotBar> bars);
+  void set_bars(std::vector<PlotBar> bars, const QString& title);
   void set_theme(const Theme& theme);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override { return {200, sizeHint().height()}; }
@@ -31,6 +31,7 @@ class BarPlot : public QWidget {
  private:
   const Theme* theme_;
   std::vector<PlotBar> bars_;
+  QString title_;  // stands above them
 };
 
 }  // namespace kinegraph

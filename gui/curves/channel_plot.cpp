@@ -33,7 +33,7 @@ QRectF ChannelPlot::plot() const {
 QColor ChannelPlot::color(const PlotSeries& series) const {
   const QColor colors[] = {theme_->right, theme_->good, theme_->left};
   QColor color = colors[series.hue % 3];
-  if (series.source) color.setAlphaF(0.45f);
+  if (series.source) color.setAlphaF(0.7f);
   return color;
 }
 
@@ -51,7 +51,7 @@ void ChannelPlot::paintEvent(QPaintEvent*) {
   const QRectF area = plot();
   if (series_.empty()) {
     painter.setPen(theme_->faint_text);
-    painter.drawText(rect(), Qt::AlignCenter, tr("Evaluating …"));
+    painter.drawText(rect(), Qt::AlignCenter, tr("Evaluating…"));
     return;
   }
   float low = INFINITY, high = -INFINITY;
@@ -86,7 +86,7 @@ void ChannelPlot::paintEvent(QPaintEvent*) {
         if (std::isfinite(*least)) line << QPointF(x, y_of(*least));
         if (step > 1 && std::isfinite(*most)) line << QPointF(x, y_of(*most));
       }
-      painter.setPen(QPen(color(one), source ? 1.2 : 1.6, source ? Qt::DashLine : Qt::SolidLine));
+      painter.setPen(QPen(color(one), source ? 1.3 : 1.8, source ? Qt::DashLine : Qt::SolidLine));
       painter.drawPolyline(line);
     }
   const double now = x_of(playback_.time());

@@ -83,6 +83,11 @@ std::vector<PlotSeries> series_of(const ShownMotion& motion, int point, Channel 
   return all;
 }
 
+// "m/s3" as it is written by hand.
+QString raised(const std::string& unit) {
+  return QString::fromStdString(unit).replace("s2", "s²").replace("s3", "s³");
+}
+
 }  // namespace
 
 CurvesPanel::CurvesPanel(Session& session, Evaluation& evaluation, Playback& playback, Viewer& viewer,
@@ -109,6 +114,7 @@ void CurvesPanel::build() {
   column->setSpacing(0);
   auto* row = new QHBoxLayout;
   row->setContentsMargins(8, 5, 8, 5);
+  row->setSpacing(6);
   const auto choice = [&](const QString& name) {
     auto* one = new QComboBox(this);
     one->setAccessibleName(name);
@@ -343,7 +349,9 @@ void CurvesPanel::show_warp(const Offer& offer) {
 void CurvesPanel::show_bars(const Offer& offer) {
   const ValuePtr value = evaluation_.value(offer.result.node, offer.result.port);
   std::vector<PlotBar> bars;
+  QString title = tr("Figures; bars of the same kind have one scale");
   if (const auto* stats = dynamic_cast<const Stats*>(value.get())) {
+    title = tr("How much each joint turns (standard deviation), and the root's mean ± spread");
     for (const JointStats& joint : stats->joints) {
       if (!joint.chosen) continue;
       double spread = 2 * joint.spread;  // the half-angle's, as a turn
@@ -366,7 +374,7 @@ void CurvesPanel::show_bars(const Offer& offer) {
                       stats->root_mean[i], QString("root%1").arg(i)});
   } else if (const auto* metrics = dynamic_cast<const Metrics*>(value.get())) {
     for (const Metric& metric : metrics->all) {
-      const QString name = QString::fromStdString(metric.name), unit = QString::fromStdString(metric.unit);
+      const QString name = QString::fromStdString(metric.name), unit = raised(metric.unit);
       const QString shown =
           metric.value ? QString("%1 %2").arg(*metric.value, 0, 'g', 4).arg(unit) : tr("not measured");
       // Only numbers of one kind compare: those of joints by the name before the dot.
@@ -374,7 +382,7 @@ void CurvesPanel::show_bars(const Offer& offer) {
     }
   }
   if (bars.empty()) return tell(tr("Nothing to plot here."));
-  bars_->set_bars(std::move(bars));
+  bars_->set_bars(std::move(bars), title);
   pages_->setCurrentIndex(bars_page);
 }
 

@@ -21,8 +21,11 @@
 namespace kinegraph {
 namespace {
 
-constexpr int around = 12;  // corners of a capsule's section
-constexpr int rings = 8;    // along it
+// Corners of a capsule's section and rings of each of its ends: few while it plays, round when it rests.
+struct CapsuleDetail {
+  int around, rings;
+};
+constexpr CapsuleDetail coarse{12, 4}, fine{32, 9};
 constexpr int samples = 4;  // of a picture that rests
 
 // A point of the unit capsule is a direction from one of its two ends.
@@ -119,13 +122,13 @@ uniform float fill;
 out vec4 picture;
 float lines(float step, vec2 width) {
   vec2 away = abs(fract(at / step - 0.5) - 0.5) * step;
-  vec2 line = 1.0 - clamp(away / width - 0.5, 0.0, 1.0);
+  vec2 line = 1.0 - clamp(away / width, 0.0, 1.0);
   // Lines nearer together than pixels are a tone, not a pattern.
   line *= clamp(step / (width * 4.0), 0.0, 1.0);
   return max(line.x, line.y);
 }
 void main() {
-  vec2 width = fwidth(at);
+  vec2 width = vec2(length(vec2(dFdx(at.x), dFdy(at.x))), length(vec2(dFdx(at.y), dFdy(at.y))));
   float line = max(lines(grid, width), 0.35 * lines(grid * 0.25, width));
   float fade = 1.0 - smoothstep(0.25, 0.95, length(at - middle.xz) / reach);
   picture = vec4(mix(ground, ground_line, line), fade * max(fill, line));
@@ -155,20 +158,24 @@ struct CapsuleInstance {
   quint8 color[4];
 };
 
-void make_capsule(std::vector<CapsulePoint>& points, std::vector<quint16>& triangles) {
+void make_capsule(CapsuleDetail detail, std::vector<CapsulePoint>& points, std::vector<quint16>& triangles) {
   const float pi_f = 3.14159265f;
-  const float heights[] = {-1.0f, -0.87f, -0.5f, 0.0f, 0.0f, 0.5f, 0.87f, 1.0f};
+  const int first = static_cast<int>(points.size()), rings = 2 * detail.rings;
   for (int ring = 0; ring < rings; ++ring) {
-    const float z = heights[ring], r = std::sqrt(std::max(0.0f, 1 - z * z));
-    for (int k = 0; k < around; ++k) {
-      const float angle = 2 * pi_f * static_cast<float>(k) / around;
-      points.push_back({r * std::cos(angle), r * std::sin(angle), z, ring < rings / 2 ? 0.0f : 1.0f});
+    const bool upper = ring >= detail.rings;
+    // Evenly by angle from each end's pole to its rim.
+    const int from_pole = upper ? rings - 1 - ring : ring;
+    const float bend = pi_f / 2 * static_cast<float>(from_pole) / static_cast<float>(detail.rings - 1);
+    const float z = (upper ? 1.0f : -1.0f) * std::cos(bend), r = std::sin(bend);
+    for (int k = 0; k < detail.around; ++k) {
+      const float angle = 2 * pi_f * static_cast<float>(k) / static_cast<float>(detail.around);
+      points.push_back({r * std::cos(angle), r * std::sin(angle), z, upper ? 1.0f : 0.0f});
     }
   }
   for (int ring = 0; ring + 1 < rings; ++ring)
-    for (int k = 0; k < around; ++k) {
+    for (int k = 0; k < detail.around; ++k) {
       const auto p = [&](int row, int column) {
-        return static_cast<quint16>(row * around + column % around);
+        return static_cast<quint16>(first + row * detail.around + column % detail.around);
       };
       for (quint16 corner :
            {p(ring, k), p(ring, k + 1), p(ring + 1, k), p(ring + 1, k), p(ring, k + 1), p(ring + 1, k + 1)})
@@ -191,7 +198,8 @@ struct GlPainter::State : QOpenGLExtraFunctions {
   QOpenGLBuffer capsule_points, instances, corners, flats, mesh_points;
   QOpenGLBuffer capsule_triangles{QOpenGLBuffer::IndexBuffer}, mesh_triangles{QOpenGLBuffer::IndexBuffer};
   std::unique_ptr<QOpenGLFramebufferObject> plain, smooth;
-  int capsule_corners = 0;
+  int coarse_corners = 0, fine_corners = 0;
+  bool smooth_now = false;
   const QVector3D light = QVector3D(0.45f, 1.0f, 0.35f).normalized();
 
   State();
@@ -216,8 +224,10 @@ GlPainter::State::State() {
   build(flat, flat_vertices, flat_fragments);
   std::vector<CapsulePoint> points;
   std::vector<quint16> triangles;
-  make_capsule(points, triangles);
-  capsule_corners = static_cast<int>(triangles.size());
+  make_capsule(coarse, points, triangles);
+  coarse_corners = static_cast<int>(triangles.size());
+  make_capsule(fine, points, triangles);
+  fine_corners = static_cast<int>(triangles.size()) - coarse_corners;
 
   capsule_array.create();
   capsule_array.bind();
@@ -365,8 +375,9 @@ void GlPainter::State::draw_figure(const SceneFigure& figure, const Scene& scene
     instances.bind();
     instances.allocate(all.data(), static_cast<int>(all.size() * sizeof(all[0])));
     draw_solid(capsule, figure, scene, eye, m, shadow, shadow_color, [&] {
-      glDrawElementsInstanced(GL_TRIANGLES, capsule_corners, GL_UNSIGNED_SHORT, nullptr,
-                              static_cast<GLsizei>(all.size()));
+      const auto start = static_cast<qintptr>(smooth_now ? coarse_corners * sizeof(quint16) : 0);
+      glDrawElementsInstanced(GL_TRIANGLES, smooth_now ? fine_corners : coarse_corners, GL_UNSIGNED_SHORT,
+                              reinterpret_cast<void*>(start), static_cast<GLsizei>(all.size()));
     });
     capsule_array.release();
   }
@@ -446,6 +457,7 @@ QImage GlPainter::paint(const ScenePicture& picture) {
   QImage image(picture.size, QImage::Format_RGB32);
   if (image.isNull()) return image;
   State& gl = *state_;
+  gl.smooth_now = picture.smooth;
   QOpenGLFramebufferObject& target = gl.target(picture.size, picture.smooth);
   target.bind();
   gl.glDisable(GL_SCISSOR_TEST);

@@ -25,7 +25,7 @@ QRgb side_color(ShownMotion::Side side, const SceneLooks& looks, const Theme& th
 // Shorter links turn blue, longer ones red; a tenth is full colour.
 QRgb stretched_color(QRgb plain, float stretch, const Theme& theme) {
   const double much = std::clamp((static_cast<double>(stretch) - 1) / 0.1, -1.0, 1.0);
-  if (std::abs(much) < 0.02) return plain;
+  if (std::abs(stretch - 1) < ShownMotion::least_stretch) return plain;
   return mixed(QColor::fromRgb(plain), much > 0 ? theme.stretch_long : theme.stretch_short, std::abs(much));
 }
 
@@ -57,7 +57,7 @@ SceneFigure figure_of(const ShownMotion& motion, int frame, const SceneLooks& lo
     }
   }
   if (motion.markers) {
-    const float radius = static_cast<float>(std::clamp(motion.size * 0.009, 0.002, 0.02));
+    const float radius = static_cast<float>(std::clamp(motion.size * 0.010, 0.002, 0.05));
     for (int point = 0; point < motion.points; ++point) {
       const QVector3D p = at(point);
       if (!std::isnan(p.x()))

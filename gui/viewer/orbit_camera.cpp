@@ -59,6 +59,28 @@ void OrbitCamera::frame(QVector3D low, QVector3D high) {
   distance = radius / std::sin(field_of_view / degrees / 2) * 1.02f;
 }
 
+void OrbitCamera::frame_closely(const std::vector<QVector3D>& points, float thickness, double shape) {
+  constexpr float room = 1.1f;  // around it, for captions
+  if (points.empty()) return;
+  const float half = std::tan(field_of_view / degrees / 2) / room, wide = static_cast<float>(shape);
+  const float across = shape >= 1 ? half * wide : half, upwards = shape >= 1 ? half : half / wide;
+  const QVector3D away = (eye() - target).normalized(), side = right(), top = up();
+  QVector3D low = points.front(), high = low;
+  for (const QVector3D& p : points)
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  target = (low + high) / 2;
+  distance = 0.1f;
+  for (const QVector3D& point : points) {
+    const QVector3D p = point - target;
+    const float near_by = QVector3D::dotProduct(p, away) + thickness;
+    distance = std::max({distance, near_by + (std::abs(QVector3D::dotProduct(p, side)) + thickness) / across,
+                         near_by + (std::abs(QVector3D::dotProduct(p, top)) + thickness) / upwards});
+  }
+}
+
 std::optional<QPointF> OrbitCamera::on_picture(QVector3D point, QSizeF size) const {
   const QVector4D clip = projection(size) * view() * QVector4D(point, 1);
   if (clip.w() <= 1e-4f) return {};

@@ -5,6 +5,7 @@
 #include <QSizeF>
 #include <QVector3D>
 #include <optional>
+#include <vector>
 
 namespace kinegraph {
 
@@ -23,7 +24,10 @@ struct OrbitCamera {
   void orbit(QPointF pixels);                 // of the mouse
   void pan(QPointF pixels, double height);    // so that what is under the mouse stays there
   void zoom(double steps);                    // notches of a wheel; positive comes nearer
-  void frame(QVector3D low, QVector3D high);  // shows the whole box
+  void frame(QVector3D low, QVector3D high);  // shows the whole box from any side
+  // As near as all points are seen whole from this side, with what is around them, in a picture so many
+  // times as wide as high.
+  void frame_closely(const std::vector<QVector3D>& points, float thickness, double shape);
   // Where a point of the world lies on a picture of this size, y down; nothing behind the eye.
   std::optional<QPointF> on_picture(QVector3D point, QSizeF size) const;
 };

@@ -58,32 +58,78 @@ QPainterPath capsule_path(QPointF a, double ra, QPointF b, double rb) {
   return path;
 }
 
-QColor shaded(QRgb base, double light_share) {
-  const double f = light_share;
-  const auto part = [&](int c) { return std::clamp(static_cast<int>(c * f), 0, 255); };
+// A surface that faces this way, lit as the OpenGL painter lights it.
+QColor lit(QRgb base, QVector3D normal, QVector3D toward) {
+  const float key = std::max(0.0f, QVector3D::dotProduct(normal, light));
+  const float sky = 0.5f + 0.5f * normal.y();
+  const float head = std::max(0.0f, QVector3D::dotProduct(normal, toward));
+  const float gleam = std::max(0.0f, QVector3D::dotProduct(normal, (light + toward).normalized()));
+  const float share = 0.34f + 0.20f * sky + 0.42f * key + 0.18f * head;
+  const float shine = 25.5f * std::pow(gleam, 24.0f);
+  const auto part = [&](int c) {
+    return std::clamp(static_cast<int>(static_cast<float>(c) * share + shine), 0, 255);
+  };
   return QColor(part(qRed(base)), part(qGreen(base)), part(qBlue(base)));
 }
 
-void paint_capsule(QPainter& painter, const Projector& eye, const SceneCapsule& c) {
+// The colours of a ball: a highlight where it faces the light, darker to its rim.
+QBrush ball_brush(QPointF middle, double r, const SceneCapsule& c, QVector3D toward, QVector3D right,
+                  QVector3D up) {
+  const QVector3D lit_side = light - QVector3D::dotProduct(light, toward) * toward;
+  const QVector3D brightest = (toward + 0.8f * lit_side).normalized();
+  const QPointF aim(QVector3D::dotProduct(brightest, right), -QVector3D::dotProduct(brightest, up));
+  QRadialGradient gradient(middle, 1.5 * r, middle + 0.6 * r * aim);
+  gradient.setColorAt(0, lit(c.color, brightest, toward));
+  gradient.setColorAt(0.45, lit(c.color, toward, toward));
+  gradient.setColorAt(1, lit(c.color, (0.35f * toward - lit_side.normalized()).normalized(), toward));
+  return gradient;
+}
+
+void paint_capsule(QPainter& painter, const Projector& eye, const SceneCapsule& c,
+                   const OrbitCamera& camera) {
   if (!eye.visible(c.a) || !eye.visible(c.b)) return;
   const QPointF a = eye.spot(c.a), b = eye.spot(c.b);
   const double ra = std::max(0.6, c.radius_a * eye.pixels_a_metre(c.a));
   const double rb = std::max(0.6, c.radius_b * eye.pixels_a_metre(c.b));
   const double thick = std::max(ra, rb);
-  // Lit across, from the upper left of the picture: a gradient stands for the roundness.
-  QPointF along = b - a;
-  const double length = std::hypot(along.x(), along.y());
-  along = length > 1e-6 ? along / length : QPointF(1, 0);
-  QPointF across(-along.y(), along.x());
-  if (across.x() * -0.4 + across.y() * -1.0 < 0) across = -across;
-  const QPointF middle = (a + b) / 2;
-  QLinearGradient gradient(middle + across * thick, middle - across * thick);
-  gradient.setColorAt(0, shaded(c.color, 0.95));
-  gradient.setColorAt(0.3, shaded(c.color, 1.05));
-  gradient.setColorAt(1, shaded(c.color, 0.5));
+  const QVector3D centre = (c.a + c.b) / 2, toward = (camera.eye() - centre).normalized();
+  const QVector3D axis = c.b - c.a, side = QVector3D::crossProduct(axis, toward);
   painter.setPen(Qt::NoPen);
+  const QPointF along = b - a;
+  const double length = std::hypot(along.x(), along.y());
+  if (side.length() < 1e-4f * std::max(1e-3f, axis.length()) || length < 0.3 * thick) {
+    painter.setBrush(ball_brush((a + b) / 2, thick, c, toward, camera.right(), camera.up()));
+    painter.drawPath(capsule_path(a, ra, b, rb));
+    return;
+  }
+  // A gradient across stands for the roundness: at each share of the way the normal that is seen there.
+  const QVector3D across = side.normalized(), front = QVector3D::crossProduct(across, axis).normalized();
+  QPointF on_picture(along.y() / length, -along.x() / length);
+  if (QVector3D::dotProduct(across, camera.right()) * on_picture.x() -
+          QVector3D::dotProduct(across, camera.up()) * on_picture.y() <
+      0)
+    on_picture = -on_picture;
+  const QPointF middle = (a + b) / 2;
+  QLinearGradient gradient(middle - on_picture * thick, middle + on_picture * thick);
+  for (const float at : {-1.0f, -0.85f, -0.5f, -0.15f, 0.2f, 0.5f, 0.85f, 1.0f}) {
+    const QVector3D normal = at * across + std::sqrt(std::max(0.0f, 1 - at * at)) * front;
+    gradient.setColorAt(0.5 + 0.5 * static_cast<double>(at), lit(c.color, normal, toward));
+  }
   painter.setBrush(gradient);
   painter.drawPath(capsule_path(a, ra, b, rb));
+}
+
+// Short pieces of it, so that they can be sorted by depth among others that it passes.
+void add_pieces(const SceneCapsule& c, std::vector<SceneCapsule>& all) {
+  const float thick = std::max(c.radius_a, c.radius_b), length = (c.b - c.a).length();
+  const int count = std::clamp(static_cast<int>(std::ceil(length / (2 * std::max(1e-4f, thick)))), 1, 6);
+  for (int i = 0; i < count; ++i) {
+    const float from = static_cast<float>(i) / static_cast<float>(count);
+    const float to = static_cast<float>(i + 1) / static_cast<float>(count);
+    all.push_back({c.a + from * (c.b - c.a), c.a + to * (c.b - c.a),
+                   c.radius_a + from * (c.radius_b - c.radius_a), c.radius_a + to * (c.radius_b - c.radius_a),
+                   c.color});
+  }
 }
 
 QVector3D on_floor(QVector3D p, float floor) {
@@ -129,23 +175,31 @@ void paint_floor(QPainter& painter, const Projector& eye, const Scene& scene, co
       painter.drawPolygon(polygon);
     }
   }
-  const int count = static_cast<int>(std::min(60.0f, reach / scene.grid));
-  for (int k = -count; k <= count; ++k)
-    for (int axis = 0; axis < 2; ++axis) {
-      const float x = (std::round(middle.x() / scene.grid) + static_cast<float>(k)) * scene.grid;
-      const float z = (std::round(middle.z() / scene.grid) + static_cast<float>(k)) * scene.grid;
-      const float away = axis == 0 ? x - middle.x() : z - middle.z();
-      const float half = std::sqrt(std::max(0.0f, reach * reach - away * away));
-      QVector3D from = axis == 0 ? QVector3D(x, scene.floor, middle.z() - half)
-                                 : QVector3D(middle.x() - half, scene.floor, z);
-      QVector3D to = axis == 0 ? QVector3D(x, scene.floor, middle.z() + half)
-                               : QVector3D(middle.x() + half, scene.floor, z);
-      if (!cut(from, to)) continue;
-      QColor line = QColor::fromRgb(colors.ground_line);
-      line.setAlphaF(std::clamp(1 - std::abs(away) / reach, 0.0f, 1.0f));
-      painter.setPen(QPen(line, 1));
-      painter.drawLine(eye.spot(from), eye.spot(to));
-    }
+  // Every metre, and fainter every quarter of it near what is looked at.
+  const auto lines = [&](float step, float radius, float strength, int every) {
+    const int count = static_cast<int>(std::min(60.0f, radius / step));
+    const int first_x = static_cast<int>(std::round(middle.x() / step)),
+              first_z = static_cast<int>(std::round(middle.z() / step));
+    for (int k = -count; k <= count; ++k)
+      for (int axis = 0; axis < 2; ++axis) {
+        if (every > 1 && ((axis == 0 ? first_x : first_z) + k) % every == 0) continue;
+        const float x = static_cast<float>(first_x + k) * step;
+        const float z = static_cast<float>(first_z + k) * step;
+        const float away = axis == 0 ? x - middle.x() : z - middle.z();
+        const float half = std::sqrt(std::max(0.0f, radius * radius - away * away));
+        QVector3D from = axis == 0 ? QVector3D(x, scene.floor, middle.z() - half)
+                                   : QVector3D(middle.x() - half, scene.floor, z);
+        QVector3D to = axis == 0 ? QVector3D(x, scene.floor, middle.z() + half)
+                                 : QVector3D(middle.x() + half, scene.floor, z);
+        if (!cut(from, to)) continue;
+        QColor line = QColor::fromRgb(colors.ground_line);
+        line.setAlphaF(strength * std::clamp(1 - std::abs(away) / radius, 0.0f, 1.0f));
+        painter.setPen(QPen(line, 1));
+        painter.drawLine(eye.spot(from), eye.spot(to));
+      }
+  };
+  lines(scene.grid / 4, std::min(reach, 0.8f * camera.distance), 0.4f, 4);
+  lines(scene.grid, reach, 1, 1);
 }
 
 // All triangles the same way round, so that they unite.
@@ -199,50 +253,80 @@ void paint_flats(QPainter& painter, const Projector& eye, const std::vector<Flat
   }
 }
 
-void paint_mesh(QPainter& painter, const Projector& eye, const PosedMesh& mesh, QRgb color, QVector3D from) {
+struct MeshCorner {
+  QVector3D at, normal;
+  QPointF spot;
+};
+
+MeshCorner between(const MeshCorner& a, const MeshCorner& b) {
+  return {(a.at + b.at) / 2, (a.normal + b.normal).normalized(), (a.spot + b.spot) / 2};
+}
+
+void paint_mesh(QPainter& painter, const Projector& eye, const PosedMesh& mesh, QRgb color, QVector3D from,
+                bool smooth) {
   struct Face {
     float depth;
     QPointF corners[3];
-    double shade;
+    QColor shade;
   };
   std::vector<Face> faces;
   faces.reserve(mesh.triangles.size() / 3);
-  const auto at = [&](std::uint32_t v) {
-    return QVector3D(mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]);
+  const auto vector_at = [](const std::vector<float>& all, std::uint32_t v) {
+    return QVector3D(all[3 * v], all[3 * v + 1], all[3 * v + 2]);
+  };
+  // Large faces in four, until the shading of their corners' normals changes little over each.
+  const auto add = [&](const auto& self, const MeshCorner& a, const MeshCorner& b, const MeshCorner& c,
+                       int deeper) -> void {
+    const auto far = [](QPointF p, QPointF q) { return (p - q).manhattanLength(); };
+    if (deeper > 0 && std::max({far(a.spot, b.spot), far(b.spot, c.spot), far(c.spot, a.spot)}) > 9) {
+      const MeshCorner ab = between(a, b), bc = between(b, c), ca = between(c, a);
+      self(self, a, ab, ca, deeper - 1);
+      self(self, ab, b, bc, deeper - 1);
+      self(self, ca, bc, c, deeper - 1);
+      self(self, ab, bc, ca, deeper - 1);
+      return;
+    }
+    const QVector3D toward = (from - a.at).normalized();
+    QVector3D n = (a.normal + b.normal + c.normal).normalized();
+    if (QVector3D::dotProduct(n, toward) < 0) n = -n;
+    faces.push_back({eye.depth((a.at + b.at + c.at) / 3), {a.spot, b.spot, c.spot}, lit(color, n, toward)});
   };
   for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
-    const QVector3D a = at(mesh.triangles[i]), b = at(mesh.triangles[i + 1]), c = at(mesh.triangles[i + 2]);
-    if (!eye.visible(a) || !eye.visible(b) || !eye.visible(c)) continue;
-    const QVector3D n = QVector3D::crossProduct(b - a, c - a).normalized();
-    const QVector3D toward = (from - a).normalized();
-    const float facing = QVector3D::dotProduct(n, toward);
-    const float key = std::max(0.0f, QVector3D::dotProduct(facing < 0 ? -n : n, light));
-    faces.push_back({eye.depth((a + b + c) / 3),
-                     {eye.spot(a), eye.spot(b), eye.spot(c)},
-                     0.4 + 0.45 * key + 0.2 * std::abs(facing)});
+    MeshCorner corners[3];
+    bool seen = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh.triangles[i + k];
+      corners[k].at = vector_at(mesh.positions, v);
+      corners[k].normal = vector_at(mesh.normals, v);
+      seen = seen && eye.visible(corners[k].at);
+      if (seen) corners[k].spot = eye.spot(corners[k].at);
+    }
+    if (seen) add(add, corners[0], corners[1], corners[2], smooth ? 3 : 0);
   }
   std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.depth > b.depth; });
   for (const Face& face : faces) {
-    const QColor shade = shaded(color, face.shade);
-    painter.setPen(QPen(shade, 0.6));  // closes the seams between antialiased neighbours
-    painter.setBrush(shade);
+    painter.setPen(QPen(face.shade, 0.6));  // closes the seams between antialiased neighbours
+    painter.setBrush(face.shade);
     painter.drawPolygon(face.corners, 3);
   }
 }
 
-void paint_figure(QPainter& painter, const Projector& eye, const SceneFigure& figure, QVector3D from) {
-  if (figure.mesh) paint_mesh(painter, eye, *figure.mesh, figure.mesh_color, from);
+void paint_figure(QPainter& painter, const Projector& eye, const SceneFigure& figure,
+                  const OrbitCamera& camera, bool smooth) {
+  if (figure.mesh) paint_mesh(painter, eye, *figure.mesh, figure.mesh_color, camera.eye(), smooth);
+  std::vector<SceneCapsule> pieces;
+  for (const SceneCapsule& c : figure.capsules) add_pieces(c, pieces);
   std::vector<std::pair<float, const SceneCapsule*>> order;
-  for (const SceneCapsule& c : figure.capsules)
+  for (const SceneCapsule& c : pieces)
     order.emplace_back(eye.depth((c.a + c.b) / 2) - std::max(c.radius_a, c.radius_b), &c);
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (const auto& [depth, c] : order) paint_capsule(painter, eye, *c);
+  for (const auto& [depth, c] : order) paint_capsule(painter, eye, *c, camera);
 }
 
 }  // namespace
 
 void paint_scene(QPainter& painter, const QRectF& where, const Scene& scene, const OrbitCamera& camera,
-                 const SceneColors& colors) {
+                 const SceneColors& colors, bool smooth) {
   painter.save();
   painter.setClipRect(where, Qt::IntersectClip);
   painter.setRenderHint(QPainter::Antialiasing);
@@ -262,7 +346,7 @@ void paint_scene(QPainter& painter, const QRectF& where, const Scene& scene, con
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [depth, figure] : order) {
     if (figure->opacity >= 1) {
-      paint_figure(painter, eye, *figure, camera.eye());
+      paint_figure(painter, eye, *figure, camera, smooth);
       continue;
     }
     // On a sheet of its own, so that its bones don't shine through each other.
@@ -272,7 +356,7 @@ void paint_scene(QPainter& painter, const QRectF& where, const Scene& scene, con
       QPainter on_sheet(&sheet);
       on_sheet.setRenderHint(QPainter::Antialiasing);
       on_sheet.translate(-where.topLeft());
-      paint_figure(on_sheet, eye, *figure, camera.eye());
+      paint_figure(on_sheet, eye, *figure, camera, smooth);
     }
     painter.setOpacity(figure->opacity);
     painter.drawImage(where.topLeft(), sheet);
@@ -294,7 +378,8 @@ QImage paint_raster(const ScenePicture& picture) {
     painter.save();
     painter.setClipRect(pixels(cell.clip));
     painter.fillRect(pixels(cell.clip), QColor::fromRgb(picture.colors.sky));
-    paint_scene(painter, pixels(cell.where), cell.scene, camera_of(picture, cell), picture.colors);
+    paint_scene(painter, pixels(cell.where), cell.scene, camera_of(picture, cell), picture.colors,
+                picture.smooth);
     painter.restore();
   }
   return image;

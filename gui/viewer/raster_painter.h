@@ -11,6 +11,6 @@ namespace kinegraph {
 QImage paint_raster(const ScenePicture& picture);
 // One scene into a rectangle of a painter, over what is there: for small figures in panels.
 void paint_scene(QPainter& painter, const QRectF& where, const Scene& scene, const OrbitCamera& camera,
-                 const SceneColors& colors);
+                 const SceneColors& colors, bool smooth);
 
 }  // namespace kinegraph

@@ -104,6 +104,10 @@ void find_stretch(ShownMotion& shown, const Motion& motion) {
           std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
       shown.stretch.push_back(bone.rest_length > 0 ? length / bone.rest_length : 1.0f);
     }
+  // What is too little for a colour is none.
+  if (std::none_of(shown.stretch.begin(), shown.stretch.end(),
+                   [](float s) { return std::abs(s - 1) >= ShownMotion::least_stretch; }))
+    shown.stretch.clear();
 }
 
 void find_contacts(ShownMotion& shown, const Motion& motion, const WorldMotion& world, Work& work) {

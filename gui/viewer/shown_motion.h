@@ -36,12 +36,14 @@ struct ShownMotion {
   std::vector<Side> sides;         // of the points
   std::vector<Bone> bones;
   int points = 0;
-  std::vector<Point3> positions;  // frame * points + point; NaN where a marker is missing
-  std::vector<float> stretch;  // frame * bones + bone: length over rest length; empty where no bone changes
-  double size = 1.7;           // m, of the body, for thickness and the camera
-  Point3 low, high;            // box around all frames
-  double floor = 0;            // m
-  Contacts contacts;           // found in the motion; no points where it has no feet
+  std::vector<Point3> positions;                  // frame * points + point; NaN where a marker is missing
+  static constexpr float least_stretch = 0.002f;  // of which anything is seen
+  // frame * bones + bone: length over rest length; empty where none changes as much.
+  std::vector<float> stretch;
+  double size = 1.7;                               // m, of the body, for thickness and the camera
+  Point3 low, high;                                // box around all frames
+  double floor = 0;                                // m
+  Contacts contacts;                               // found in the motion; no points where it has no feet
   std::vector<std::vector<Point3>> contact_spots;  // of each contact point a frame
 
   const Point3& at(int frame, int point) const {

@@ -63,6 +63,38 @@ void Stage::set_wipe(bool on) {
   update();
 }
 
+void Stage::set_legend(bool on) {
+  has_legend_ = on;
+  update();
+}
+
+double Stage::shape() const {
+  const QRectF cell = cells_.empty() ? QRectF(0, 0, 1, 1) : cells_.front().where;
+  return std::max(1.0, cell.width() * width()) / std::max(1.0, cell.height() * height());
+}
+
+void Stage::paint_legend(QPainter& painter) const {
+  constexpr double wide = 164, high = 40, edge = 10;
+  const QRectF plate(8, height() - high - 8, wide, high);
+  QColor back = theme_->panel;
+  back.setAlpha(205);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(back);
+  painter.drawRoundedRect(plate, 4, 4);
+  const QRectF bar(plate.left() + edge, plate.top() + 8, wide - 2 * edge, 6);
+  QLinearGradient colors(bar.topLeft(), bar.topRight());
+  colors.setColorAt(0, theme_->stretch_short);
+  colors.setColorAt(0.5, theme_->bone);
+  colors.setColorAt(1, theme_->stretch_long);
+  painter.setBrush(colors);
+  painter.drawRoundedRect(bar, 2, 2);
+  painter.setPen(theme_->text);
+  const QRectF words(bar.left(), bar.bottom() + 3, bar.width(), plate.bottom() - bar.bottom() - 6);
+  painter.drawText(words, Qt::AlignLeft | Qt::AlignVCenter, tr("−10 %"));
+  painter.drawText(words, Qt::AlignHCenter | Qt::AlignVCenter, tr("length"));
+  painter.drawText(words, Qt::AlignRight | Qt::AlignVCenter, tr("+10 %"));
+}
+
 void Stage::camera_changed() {
   ask(false);
   emit camera_moved();
@@ -111,6 +143,7 @@ void Stage::paintEvent(QPaintEvent*) {
       if (cell.clip.bottom() < 0.999) painter.drawLine(part.bottomLeft(), part.bottomRight());
     }
   }
+  if (has_legend_) paint_legend(painter);
   if (parentWidget() && parentWidget()->hasFocus()) {
     painter.setPen(QPen(theme_->accent, 1));
     painter.setBrush(Qt::NoBrush);

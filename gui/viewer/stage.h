@@ -29,6 +29,8 @@ class Stage : public QWidget {
   void show_cells(std::vector<SceneCell> cells, std::vector<Caption> captions, bool moving);
   void set_colors(const SceneColors& colors, const Theme& theme);
   void set_wipe(bool on);
+  void set_legend(bool on);  // of the colours of stretched links
+  double shape() const;      // of a cell: so many times as wide as high
   double wipe() const { return wipe_; }
 
   OrbitCamera& camera() { return camera_; }
@@ -54,6 +56,7 @@ class Stage : public QWidget {
 
  private:
   ScenePicture picture(bool smooth) const;
+  void paint_legend(QPainter& painter) const;
   void ask(bool moving);
   bool on_wipe_line(QPointF at) const;
 
@@ -67,7 +70,7 @@ class Stage : public QWidget {
   QTimer rest_;
   QPointF last_;
   Qt::MouseButton button_ = Qt::NoButton;
-  bool panning_ = false, wiping_ = false, has_wipe_ = false;
+  bool panning_ = false, wiping_ = false, has_wipe_ = false, has_legend_ = false;
   double wipe_ = 0.5;
   int pictures_ = 0;
 };

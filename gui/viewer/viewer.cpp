@@ -28,6 +28,19 @@ bool same_targets(const std::vector<Target>& a, const std::vector<Target>& b) {
                     [](const Target& x, const Target& y) { return x.node == y.node && x.port == y.port; });
 }
 
+// Where all of it is through the clip; with `follow` counted from the ground under the body.
+void add_points(const ShownMotion& motion, bool follow, std::vector<QVector3D>& all) {
+  constexpr int looks = 24;
+  for (int k = 0; k < looks; ++k) {
+    const int frame = k * (motion.frames - 1) / (looks - 1);
+    const QVector3D ground = follow ? ground_under(motion, frame) : QVector3D();
+    for (int point = 0; point < motion.points; ++point) {
+      const ShownMotion::Point3& p = motion.at(frame, point);
+      if (!std::isnan(p.x)) all.push_back(QVector3D(p.x, p.y, p.z) - ground);
+    }
+  }
+}
+
 }  // namespace
 
 Viewer::Viewer(Session& session, Evaluation& evaluation, Playback& playback, QWidget* parent)
@@ -239,31 +252,21 @@ void Viewer::set_follow(bool follow) {
 }
 
 void Viewer::frame_all() {
-  SceneBox box;
-  bool first = true;
+  update_scene();  // into cells of the shape that they have now
+  std::vector<QVector3D> points;
+  float thickness = 0;
   for (const Shown& one : shown_) {
     if (!one.motion) continue;
-    const int frame = one.motion->frame_at(playback_.time());
-    // Points may all be in one place at one time.
-    SceneBox its = looks_.follow && !one.motion->markers ? box_at(*one.motion, frame) : box_of(*one.motion);
-    if (looks_.follow) {
-      its.low -= ground_under(*one.motion, frame);
-      its.high -= ground_under(*one.motion, frame);
-    }
-    if (one.character) {
-      const SceneBox skin = skins_.around(one.character, one.motion, frame);
-      its.low += skin.low;
-      its.high += skin.high;
-    }
-    if (first) box = its;
-    first = false;
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::min(box.low[axis], its.low[axis]);
-      box.high[axis] = std::max(box.high[axis], its.high[axis]);
-    }
+    add_points(*one.motion, looks_.follow, points);
+    // Bones are thicker than the lines between their joints, and skins than bones.
+    thickness = std::max(thickness, static_cast<float>(0.03 * one.motion->size));
+    if (!one.character) continue;
+    const SceneBox skin = skins_.around(one.character, one.motion, one.motion->frame_at(playback_.time()));
+    for (int axis = 0; axis < 3; ++axis)
+      thickness = std::max({thickness, std::abs(skin.low[axis]), std::abs(skin.high[axis])});
   }
-  if (first) return;
-  stage_->camera().frame(box.low, box.high);
+  if (points.empty()) return;
+  stage_->camera().frame_closely(points, thickness, stage_->shape());
   framed_camera_ = stage_->camera();
   stage_->camera_changed();
   update_scene();
@@ -464,6 +467,9 @@ void Viewer::update_scene() {
       cells.push_back(std::move(cell));
     }
   }
+  stage_->set_legend(looks_.stretch && std::any_of(ready.begin(), ready.end(), [](const Shown* one) {
+                       return !one->motion->stretch.empty() && !one->character;
+                     }));
   if (cells.empty()) cells.emplace_back();
   stage_->set_wipe(wipe);
   stage_->show_cells(std::move(cells), std::move(captions), playback_.is_playing());

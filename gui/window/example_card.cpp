@@ -78,6 +78,8 @@ void ExampleCard::paintEvent(QPaintEvent*) {
   QFont font;
   font.setPixelSize(13);
   font.setBold(true);
+  while (font.pixelSize() > 11 && QFontMetrics(font).horizontalAdvance(title_) > width() - 24)
+    font.setPixelSize(font.pixelSize() - 1);
   p.setFont(font);
   p.setPen(theme_->text);
   p.drawText(QRect(12, height() - 60, width() - 24, 20), Qt::AlignLeft | Qt::AlignVCenter,

@@ -1,6 +1,6 @@
 // Writes the pictures of docs/editor: every port type, node state, dock, dialog, error and empty state.
 //   editor_screenshots FOLDER dark|light|large|qpainter [PART…]
-// PART: graph, gestures, viewer, docks, menus, troubles; all of them where none is given.
+// PART: graph, gestures, viewer, docks, menus, others, troubles; all of them where none is given.
 #include <QCheckBox>
 #include <QMessageBox>
 #include <QStandardPaths>
@@ -258,7 +258,7 @@ void troubles(const Theme& theme, const QDir& into, const QString& end) {
   }
   {
     Shot shot(theme, into);
-    QFile damaged(shot.folder.filePath("damaged.bvh"));
+    QFile damaged(shot.in_shot("damaged.bvh"));
     if (damaged.open(QIODevice::WriteOnly)) damaged.write("HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0\n}\n");
     damaged.close();
     shot.text(R"("walk": {"type": "Load", "params": {"file": "damaged.bvh"}})");
@@ -329,7 +329,8 @@ int main(int argc, char** argv) {
   const std::pair<const char*, Take> parts[] = {
       {"graph", shots::graph_pictures},     {"gestures", shots::gestures},
       {"viewer", shots::viewer_pictures},   {"docks", shots::docks},
-      {"menus", shots::menus_and_messages}, {"troubles", shots::troubles}};
+      {"menus", shots::menus_and_messages}, {"others", shots::less_common_pictures},
+      {"troubles", shots::troubles}};
   for (const auto& [part, take] : parts)
     if (wanted.isEmpty() || wanted.contains(part)) take(theme, into, end);
   return 0;

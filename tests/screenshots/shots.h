@@ -43,11 +43,16 @@ struct Shot {
     window.open(example(name));
     wait();
   }
+  // Two folders deep, so that what looks around doesn't find all of the system's scratch files.
+  QString in_shot(const QString& name) {
+    QDir(folder.path()).mkpath("show/shot");
+    return folder.filePath("show/shot/" + name);
+  }
   // A graph written down here, in a folder of its own beside the sample clips.
   QString text(const QByteArray& nodes, const QByteArray& rest = {}) {
     for (const char* beside : {"clips", "characters"})
-      QFile::link(QString::fromStdString(source_folder()) + "/graphs/" + beside, folder.filePath(beside));
-    const QString path = folder.filePath("example.kg.json");
+      QFile::link(QString::fromStdString(source_folder()) + "/graphs/" + beside, in_shot(beside));
+    const QString path = in_shot("example.kg.json");
     QFile file(path);
     if (file.open(QIODevice::WriteOnly))
       file.write("{\"format\": \"kinegraph\", \"schema\": 1, \"nodes\": {" + nodes + "}" + rest + "}\n");
@@ -147,6 +152,7 @@ struct Shot {
 
 // Into the folder, with names that end in `end`.
 void viewer_pictures(const Theme& theme, const QDir& into, const QString& end);
+void less_common_pictures(const Theme& theme, const QDir& into, const QString& end);
 void menus_and_messages(const Theme& theme, const QDir& into, const QString& end);
 
 }  // namespace kinegraph::shots

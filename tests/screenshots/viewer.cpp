@@ -36,7 +36,9 @@ void viewer_pictures(const Theme& theme, const QDir& into, const QString& end) {
   {
     Shot shot(theme, into);
     shot.text(R"("sparks": {"type": "Burst"})");
-    shot.window.playback().set_time(0.6);
+    shot.window.playback().set_time(1.2);
+    shot.wait();
+    shot.viewer().frame_all();
     shot.wait();
     shot.take_dock("viewer_points" + end, "Viewer");
   }
