@@ -24,6 +24,13 @@ std::string absolute(const std::string& folder, const std::string& path) {
   return (fs::path(folder) / path).lexically_normal().string();
 }
 
+// One name for each file: by way of links a file has many, and could lie inside itself without end.
+std::string without_links(const std::string& path) {
+  std::error_code failed;
+  const fs::path real = fs::weakly_canonical(path, failed);
+  return failed ? path : real.string();
+}
+
 // The node type that a file makes of a Graph node.
 class Face {
  public:
@@ -128,7 +135,8 @@ class Opener {
  public:
   Opener(const Registry& registry, const NestedOptions& options) : registry_(registry), options_(options) {
     variables_.given = options.variables;
-    if (!options.path.empty()) open_.push_back(fs::path(options.path).lexically_normal().string());
+    if (!options.path.empty())
+      open_.push_back(without_links(fs::path(options.path).lexically_normal().string()));
   }
 
   // `given`: Graph nodes whose file comes from outside (absolute).
@@ -211,7 +219,8 @@ class Opener {
       return nested;
     };
     if (path.empty()) return refuse("missing-file", "no graph file is named", "set its parameter \"file\"");
-    if (const auto at = std::find(open_.begin(), open_.end(), path); at != open_.end()) {
+    const std::string real = without_links(path);
+    if (const auto at = std::find(open_.begin(), open_.end(), real); at != open_.end()) {
       std::string way;
       for (auto file = at; file != open_.end(); ++file) way += fs::path(*file).filename().string() + " → ";
       return refuse("graph-cycle",
@@ -235,7 +244,7 @@ class Opener {
       return refuse("broken-graph", fmt::format("{} is of a newer schema", shown),
                     "a newer Kinegraph can run it");
     auto document = std::make_shared<Document>(found_there.read.document);
-    open_.push_back(path);
+    open_.push_back(real);
     open(*document, nested.folder, given);
     open_.pop_back();
     ValidateOptions options{.file = path,
@@ -286,7 +295,7 @@ class Opener {
   const Registry& registry_;
   const NestedOptions& options_;
   Variables variables_;
-  std::vector<std::string> open_;  // files, outermost first
+  std::vector<std::string> open_;  // files without links, outermost first
   std::map<std::string, Found> found_;
   int count_ = 0;
 };

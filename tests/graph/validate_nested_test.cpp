@@ -76,6 +76,20 @@ TEST_F(ValidateNested, AnUnknownTypeIsToldEvenWhenNoFilesAreLookedFor) {
             Told{"in/lib/odd.kg.json:1 unknown-type g/l"});
 }
 
+// Else it would be opened until the system follows no more links.
+TEST_F(ValidateNested, AFileInsideItselfByWayOfALinkIsACircle) {
+  std::filesystem::create_directory_symlink(".", folder_ / "again");
+  const std::string text =
+      toys::with_nodes(R"("g": {"type": "Graph", "params": {"file": "again/g.kg.json"}})",
+                       R"(, "publish": {"outputs": {"m": "g.m"}})");
+  toys::write(folder_ / "g.kg.json", text);
+  Document document = toys::document_of(text, registry_);
+  open_nested(document, registry_,
+              {.path = folder_ / "g.kg.json", .folder = folder_.path, .read = toys::content});
+  ASSERT_TRUE(document.nodes.at("g").nested);
+  EXPECT_EQ(document.nodes.at("g").nested->why.code, "graph-cycle");
+}
+
 TEST_F(ValidateNested, OfADisabledGraphNodeNothingIsSaid) {
   toys::write(folder_ / "lib/styled.kg.json", toys::with_nodes(styled, published));
   EXPECT_EQ(
