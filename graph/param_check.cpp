@@ -190,7 +190,49 @@ class Checker {
             value, where);
   }
 
+  // The name of the choice by which all alternatives that are objects are told apart; empty: there is none.
+  static std::string telling_choice(const ParamType& type) {
+    for (const ParamType& candidate : type.parts[0].parts) {
+      const bool everywhere = std::all_of(type.parts.begin(), type.parts.end(), [&](const ParamType& part) {
+        return part.kind == Kind::object &&
+               std::any_of(part.parts.begin(), part.parts.end(), [&](const ParamType& field) {
+                 return field.kind == Kind::choice && !field.fallback && field.name == candidate.name;
+               });
+      });
+      if (everywhere) return candidate.name;
+    }
+    return "";
+  }
+
+  // Whether an object says which of the alternatives it is; what it could say is told once, of all of them.
+  bool tells_which(const ParamType& type, const Json& value, const std::string& where) {
+    const std::string name = telling_choice(type);
+    if (name.empty() || !value.is_object()) return true;
+    std::vector<std::string> keys;
+    for (const ParamType& part : type.parts)
+      for (const ParamType& field : part.parts)
+        if (field.name == name)
+          for (const std::string& key : keys_of(field.choices)) keys.push_back(key);
+    const Json* said = value.find(name);
+    if (said && said->is_string() && std::find(keys.begin(), keys.end(), said->string()) != keys.end())
+      return true;
+    if (said && !said->is_string())
+      add(error("wrong-type", fmt::format("{} is {}", shown(*said), name_of(said->kind())))
+              .hinting(fmt::format("wanted is one of {}", fmt::join(keys, ", "))),
+          *said, where + "." + name);
+    else if (said)
+      add(error("bad-choice", fmt::format("{} is none of the choices", shown(*said)))
+              .hinting(suggestion(said->string(), keys)),
+          *said, where + "." + name);
+    else
+      add(error("missing-key", fmt::format("{} is missing", in_quotes(name)))
+              .hinting(fmt::format("one of {}", fmt::join(keys, ", "))),
+          value, where);
+    return false;
+  }
+
   void check_either(const ParamType& type, const Json& value, const std::string& where) {
+    if (!tells_which(type, value, where)) return;
     // The complaint of the alternative that the value comes nearest to: one that takes its kind at all, and
     // among objects that a choice tells apart the one whose choice it has.
     std::optional<Diagnostics> nearest_complaint;

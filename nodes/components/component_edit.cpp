@@ -61,6 +61,8 @@ class Editing {
       if (group.name == edit.name)
         throw fail("name-taken", "name", fmt::format("there is a group '{}' already", edit.name),
                    "choose another name");
+    if (edit.terms.empty())
+      throw fail("bad-edit", "terms", "a group of nothing", "name the components that it holds");
     ComponentGroup group{edit.name, {}};
     std::set<std::size_t> seen;
     for (std::size_t i = 0; i < edit.terms.size(); ++i) {

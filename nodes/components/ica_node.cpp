@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "graph/compute.h"
@@ -52,12 +54,16 @@ void compare_skeletons(const ChannelSpace& space, const std::vector<std::shared_
 }
 
 // Names the clip that differs from the first.
-void check_rates(const std::vector<double>& fps) {
+void check_rates(const std::vector<double>& fps, bool of_points) {
   for (std::size_t i = 1; i < fps.size(); ++i) {
     try {
       check_same_rate(fps.front(), fps[i], "clip 0", "clip " + std::to_string(i));
     } catch (const Failure& failure) {
-      throw Failure(Diagnostic(failure.diagnostic()).at_port("motions"));
+      Diagnostic told = Diagnostic(failure.diagnostic()).at_port("motions");
+      if (of_points)
+        told.hint =
+            fmt::format("Resample takes motions only; set `fps` of clip {}'s Load to {:.6g}", i, fps.front());
+      throw Failure(std::move(told));
     }
   }
 }
@@ -75,7 +81,7 @@ void decompose_inputs(Compute& node) {
     const auto given = motions;
     std::vector<double> fps;
     for (const auto& motion : motions) fps.push_back(motion->fps());
-    check_rates(fps);
+    check_rates(fps, false);
     for (auto& motion : motions) motion = with_moving_root(motion, node.work());
     const auto chosen =
         chosen_joints(params.text("joints"), motions.front()->skeleton(), "joints", node.work());
@@ -88,7 +94,7 @@ void decompose_inputs(Compute& node) {
   }
   std::vector<double> fps;
   for (const auto& one : points) fps.push_back(one->fps);
-  check_rates(fps);
+  check_rates(fps, true);
   const std::string& how = params.text("stabilise");
   const auto chosen = chosen_names(params.text("joints"), points.front()->labels, "joints", node.work());
   ChannelSpace space = space_of_points(points,

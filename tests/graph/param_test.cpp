@@ -80,6 +80,22 @@ TEST(Check, ComplainsOfTheAlternativeThatFitsBest) {
   EXPECT_EQ(problems(one_or_list, "true"), Codes{"wrong-type p"});
 }
 
+TEST(Check, TellsAllThatAnObjectToldApartByAChoiceCouldBe) {
+  const auto op = [](const char* name) { return required(choice({{name, name}})).as("op", "what to do"); };
+  const ParamType edit = either({object({op("scale"), number(1).as("factor", "by how much")}),
+                                 object({op("replace"), text("").as("by", "by what")})});
+  EXPECT_EQ(problems(edit, R"({"op": "scale", "factor": 2})"), Codes{});
+  EXPECT_EQ(problems(edit, R"({"op": "replace", "by": 2})"), Codes{"wrong-type p.by"});
+  const auto told = [&](const char* text) { return check(edit, json(text), "p"); };
+  ASSERT_EQ(told(R"({"op": "explode"})").size(), 1u) << "and not what another alternative lacks";
+  EXPECT_EQ(told(R"({"op": "explode"})")[0].hint, "there is scale, replace");
+  EXPECT_EQ(told(R"({"op": "replaced"})")[0].hint, "did you mean \"replace\"?");
+  EXPECT_EQ(problems(edit, R"({"factor": 2})"), Codes{"missing-key p"});
+  EXPECT_EQ(told(R"({"factor": 2})")[0].hint, "one of scale, replace");
+  EXPECT_EQ(problems(edit, R"({"op": 5})"), Codes{"wrong-type p.op"});
+  EXPECT_EQ(told(R"({"op": 5})")[0].hint, "wanted is one of scale, replace");
+}
+
 TEST(Check, AsksATextsOwnGrammar) {
   auto grammar = [](std::string_view rule) {
     if (rule.find('<') == std::string_view::npos) throw Failure(error("bad-rule", "expected <"));

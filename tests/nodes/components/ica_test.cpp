@@ -218,6 +218,12 @@ TEST(IcaNode, RefusesWhatCantBeDecomposed) {
   EXPECT_EQ(rate.code, "rate-mismatch");
   EXPECT_EQ(rate.port, "motions");
   EXPECT_THAT(rate.message, HasSubstr("clip 0 has 60 frames per second and clip 1 has 30"));
+  EXPECT_THAT(rate.hint, HasSubstr("put a Resample node"));
+  Points slow({"A"}, 10, 3), fast({"A"}, 60, 3);
+  NodeInMemory cloud(ica_node());
+  const Diagnostic of_points = cloud.link("motions", slow).link("motions", fast).refusal();
+  EXPECT_EQ(of_points.code, "rate-mismatch");
+  EXPECT_THAT(of_points.hint, HasSubstr("set `fps` of clip 1's Load to 10"));
   EXPECT_THAT(rate.hint, HasSubstr("put a Resample node with fps 60 before clip 1"));
 }
 
