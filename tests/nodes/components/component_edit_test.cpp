@@ -275,7 +275,8 @@ TEST(ComponentEdit, RefusesWhatIsNotThere) {
   EXPECT_EQ(dof.code, "bad-align");
   EXPECT_THAT(dof.hint, HasSubstr("q.x, q.y and q.z"));
   EXPECT_EQ(refusal(c, edits::Transfer{{{1, ""}}, 1, 0, {"dof:r.x"}, false, {}, 1}).code, "unknown-joint");
-  EXPECT_EQ(refusal(c, edits::Merge{"u1", {}}).code, "bad-edit");
+  EXPECT_EQ(refusal(c, edits::Merge{"u1", {{{1, ""}, 1}}}).code, "bad-edit");
+  EXPECT_THAT(refusal(c, edits::Merge{"g", {}}).message, HasSubstr("a group of nothing"));
   EXPECT_EQ(refusal(c, edits::Merge{"g", {{{1, ""}, 1}, {{1, ""}, 1}}}).code, "bad-edit");
 }
 
