@@ -40,6 +40,7 @@ class Swinging {
     held_.assign(count_, 0);
     std::vector<Vec3> still_before(count_), swung_before(count_);
     bool any = false;
+    const std::vector<std::size_t> standing = on_parents();
     // A few frames at once, whose swings stay in the cache while the sub-joints take theirs; from the tips
     // up, so that the parent's place is still the one without its swing.
     for (std::size_t start = 0; start < frames_; start += frames_at_once) {
@@ -48,6 +49,10 @@ class Swinging {
         if (!left_[i].empty())
           for (std::size_t t = start; t < end; ++t) swing_[t * count_ + i] *= left_[i][t];
       }
+      // What stands on the joint above, always, swings with it.
+      for (std::size_t i : standing)
+        for (std::size_t t = start; t < end; ++t)
+          swing_[t * count_ + i] = swing_[t * count_ + sub_.all[i].parent];
       for (std::size_t i = count_; i-- > 0;) {
         const auto at = places_.position(static_cast<int>(i));
         const int p = sub_.all[i].parent;
@@ -130,6 +135,22 @@ class Swinging {
   }
 
  private:
+  // Sub-joints without a link to the one above, at rest and in every frame.
+  std::vector<std::size_t> on_parents() const {
+    std::vector<std::size_t> on;
+    for (std::size_t i = 1; i < count_; ++i) {
+      const int parent = sub_.all[i].parent;
+      const double least = 1e-9 * watch_.height();
+      if (watch_.rest_length(static_cast<int>(i)) > least) continue;
+      const auto at = std::as_const(places_).position(static_cast<int>(i)),
+                 above = std::as_const(places_).position(parent);
+      bool stands = true;
+      for (std::size_t t = 0; t < frames_ && stands; ++t) stands = norm(at[t] - above[t]) <= least;
+      if (stands) on.push_back(i);
+    }
+    return on;
+  }
+
   bool is_quick(Vec3 still_before, Vec3 swung_before, Vec3 still, Vec3 swung) const {
     const auto below = [](Vec3 a, Vec3 b, double cosine_squared) {
       const double along = dot(a, b);

@@ -10,6 +10,7 @@
 namespace kinegraph {
 
 // Adds swings to `places`: swing[frame * sub-joints + i], of which left[i][frame] is taken (empty: all).
+// What stands on the joint above swings with it.
 // A link that would flip swings less far off its own place or gets there more slowly, as hold_swing(); what
 // lies below rides along. Where a planted point's `left` holds it, the limb above shares out among its links
 // what that takes from one of them. A limb that flips for all that swings less for a moment, down to hanging

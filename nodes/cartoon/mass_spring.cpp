@@ -19,7 +19,7 @@ constexpr int most_halvings = 8;
 
 // Frames in which the driven jump, by how much their speed changes, in parts of the tree's height a second,
 // and for how long the swing that starts there is gone through in twice as many steps.
-constexpr double jump_speed = 4, jump_seconds = 0.5;
+constexpr double jump_speed = 8, jump_seconds = 0.5;
 
 // A number a particle, or three, apart by axis, so that a loop over links takes several at once.
 using Row = std::vector<double>;

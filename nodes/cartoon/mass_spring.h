@@ -41,7 +41,7 @@ struct MassSpringResult {
 // energy only falls, by the drag's work, whatever the stiffness and the step [Gonzalez, Time Integration and
 // Discrete Hamiltonian Systems, 1996]. Second order. For a given r⁺ the unknown velocities solve a linear
 // system on the tree, the same for all axes; r⁺ is found by repetition, some five times at the defaults, for
-// which the step is held under ½ / √link. Where the driven jump (their speed changes by over 4 times the
+// which the step is held under ½ / √link. Where the driven jump (their speed changes by over 8 times the
 // tree's height a second from one frame to the next, as out of a T-pose put before a clip), the half second
 // that starts there takes twice as many steps, since what is left of an error grows with the jump.
 MassSpringResult simulate(const std::vector<int>& parents, const ParticlePath& driven, double fps,

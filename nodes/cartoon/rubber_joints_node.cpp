@@ -116,7 +116,7 @@ void check_body(const Skeleton& motion, const Skeleton& character, Work& work) {
 NodeType rubber_joints_node() {
   NodeType type;
   type.name = "RubberJoints";
-  type.code_version = 14;
+  type.code_version = 15;
   type.category = "cartoon";
   type.help =
       "Turns limbs into rubber: cuts links into sub-joints, bends them along curves and lets them follow "

@@ -26,7 +26,8 @@ double angle_between(Vec3 a, Vec3 b) {
 FlipWatch::FlipWatch(const SubJoints& sub, const Skeleton& rubber, const WorldMotion& world, double fps)
     : sub_(sub), world_(world), most_(std::min(most_a_second / fps, pi)) {
   cosine_squared_ = most_ < pi / 2 ? cosine(most_) * cosine(most_) : 2;
-  const double least = least_link * rest_height(rubber);
+  height_ = rest_height(rubber);
+  const double least = least_link * height_;
   for (int i = 0; i < rubber.size(); ++i) {
     parents_.push_back(rubber.joints[i].parent);
     const double rest = rubber.link_length(i) * rubber.above_scale;

@@ -18,6 +18,7 @@ class FlipWatch {
   std::vector<std::size_t> flips(const WorldMotion& places, int i) const;
   bool watches(int i) const { return shortest_squared_[i] >= 0; }
   double rest_length(int i) const { return rest_[i]; }
+  double height() const { return height_; }  // at rest
   // Radians that it may turn from frame t − 1 to t, and what it may at least in every frame.
   double allowed(int i, std::size_t t) const;
   double always_allowed() const { return most_; }
@@ -26,6 +27,7 @@ class FlipWatch {
   const SubJoints& sub_;
   const WorldMotion& world_;
   std::vector<int> parents_;
+  double height_ = 0;
   std::vector<double> rest_;              // lengths
   std::vector<double> shortest_squared_;  // below it a link may turn as it likes; negative: not watched
   double most_, cosine_squared_;          // of most_; over 1: where that is over a right angle

@@ -103,8 +103,20 @@ std::vector<Vec3> hold_swing(std::span<const Vec3> still, std::span<const Vec3> 
   const std::size_t frames = still.size();
   std::vector<double> room(frames);  // what the swing may turn
   std::vector<bool> free(frames);
+  double quick = 0, quick_of = -1;  // cosine² of the turn of the still link up to which there is all the room
   for (std::size_t t = 1; t < frames; ++t) {
-    const double own = angle_between(still[t - 1], still[t]);
+    if (quick_of != most[t]) {
+      quick_of = most[t];
+      const double turn = std::min((1 - at_ease) * quick_of, pi / 2);
+      quick = cosine(turn) * cosine(turn);
+    }
+    const Vec3 before = still[t - 1], now = still[t];
+    const double along = dot(before, now);
+    if (along > 0 && along * along > quick * (dot(before, before) * dot(now, now))) {
+      room[t] = swing_room(most[t], 0);
+      continue;
+    }
+    const double own = angle_between(before, now);
     room[t] = swing_room(most[t], own);
     if (own > most[t]) free[t - 1] = free[t] = true;
   }

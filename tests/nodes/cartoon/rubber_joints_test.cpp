@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -234,6 +235,22 @@ void expect_no_flips(const std::string& what, const Motion& input, const Motion&
       what, "turns " + std::to_string(largest_turn) + ", twists " + std::to_string(largest_twist));
 }
 
+// Every sub-link, with the link of the joints that it is part of.
+std::vector<LinkPair> links_of(const RubberResult& rubber, const Motion& clip) {
+  const SubJoints& sub = rubber.sub_joints;
+  const auto ends = links_below(clip);
+  std::vector<LinkPair> links;
+  for (int i = 0; i < static_cast<int>(sub.all.size()); ++i) {
+    const SubJoint& one = sub.all[i];
+    if (one.count > 1) {
+      links.push_back({i, one.step + 1 < one.count ? i + 1 : sub.first[one.next], one.joint, one.next});
+    } else {
+      for (int below : ends[one.joint]) links.push_back({i, sub.first[below], one.joint, below});
+    }
+  }
+  return links;
+}
+
 TEST(RubberJoints, NeverFlipOnAnyClip) {
   KINEGRAPH_NEEDS_MOCAP();
   int clips = 0;
@@ -255,19 +272,32 @@ TEST(RubberJoints, NeverFlipOnAnyClip) {
     } catch (const Failure&) {
     }
     const RubberResult rubber = rubber_joints(wild, {}, contacts ? &*contacts : nullptr, work);
-    const SubJoints& sub = rubber.sub_joints;
-    links.clear();
-    for (int i = 0; i < static_cast<int>(sub.all.size()); ++i) {
-      const SubJoint& one = sub.all[i];
-      if (one.count > 1)
-        links.push_back({i, one.step + 1 < one.count ? i + 1 : sub.first[one.next], one.joint, one.next});
-      else
-        for (int below : ends[one.joint]) links.push_back({i, sub.first[below], one.joint, below});
-    }
-    expect_no_flips(file + " as rubber", clip, rubber.motion, links);
+    expect_no_flips(file + " as rubber", clip, rubber.motion, links_of(rubber, clip));
     ++clips;
   }
   EXPECT_GT(clips, 50);
+}
+
+TEST(RubberJoints, NeverFlipHoweverStiffTheSpringsAre) {
+  KINEGRAPH_NEEDS_MOCAP();
+  for (const char* file : cartoon_clips) {
+    Alone work;
+    const Motion clip = resampled(cartoon_clip(file, 200), 120, work);
+    const Motion wild = exaggerate(clip, {}, work).motion;
+    for (const auto& [hook, link, drag] : {std::array{20.0, 0.0, 0.0},
+                                           {300.0, 600.0, 0.0},
+                                           {1e6, 0.0, 0.0},
+                                           {300.0, 1e6, 12.0},
+                                           {1.0, 1e4, 1e4}}) {
+      RubberParams params;
+      params.springs = {hook, link, drag, true, 0};
+      params.blend = 1;
+      const RubberResult rubber = rubber_joints(wild, params, nullptr, work);
+      expect_no_flips(std::string(file) + " hook " + std::to_string(hook) + " link " + std::to_string(link) +
+                          " drag " + std::to_string(drag),
+                      clip, rubber.motion, links_of(rubber, clip));
+    }
+  }
 }
 
 TEST(RubberJoints, HaveTheFeetOfTheirInput) {
