@@ -1,6 +1,6 @@
 // Which sub-joints of a joint move the vertices that have room for one of them only.
 #pragma once
-#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
