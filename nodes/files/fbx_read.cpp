@@ -199,6 +199,22 @@ void add_meshes(GltfOut& out, const FbxScene& scene) {
   }
 }
 
+// Of a file that holds nothing but a skeleton the nodes are what a skin would name, but for a node over the
+// whole that stands for the armature.
+void add_bare_skeleton(GltfOut& out, const FbxScene& scene) {
+  if (!scene.meshes.empty() || !scene.clips.empty()) return;
+  std::vector<std::size_t> children(scene.nodes.size());
+  for (const FbxScene::Node& node : scene.nodes)
+    if (node.parent >= 0) ++children[static_cast<std::size_t>(node.parent)];
+  std::size_t first = 1;
+  if (scene.nodes.size() > 2 && children[0] == 1 && children[1] == 1 &&
+      decomposed(scene.nodes[1].local).move == Vec3{})
+    first = 2;
+  Json::Array joints;
+  for (std::size_t i = first; i < scene.nodes.size(); ++i) joints.push_back(i);
+  if (!joints.empty()) out.list("skins").push_back(Json::Object{{"joints", std::move(joints)}});
+}
+
 }  // namespace
 
 GltfContents read_fbx(std::string_view bytes, const ReadOptions& options, FileAccess& files, Work& work) {
@@ -231,6 +247,7 @@ GltfContents read_fbx(std::string_view bytes, const ReadOptions& options, FileAc
   out.root.object()["scene"] = 0;
   add_meshes(out, scene);
   add_clips(out, scene, rest, work);
+  add_bare_skeleton(out, scene);
 
   if (std::any_of(scene.clips.begin(), scene.clips.end(), [](const auto& clip) { return clip.sparse; }))
     work.report(warning("sparse-keys", "frames between keys are taken as straight, not by the file's curves")

@@ -46,7 +46,7 @@ NodeType load_node() {
   NodeType type;
   type.name = "Load";
   type.category = "files";
-  type.code_version = 3;
+  type.code_version = 4;
   type.help = "Reads a motion, points, a character or an analysis from a file.";
   type.keywords = {"open", "read", "import", "clip", "bvh", "amc", "file"};
   for (const FilePort& port : file_ports())

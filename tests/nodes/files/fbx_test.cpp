@@ -119,6 +119,23 @@ TEST(Fbx, IsTurnedAndScaledAsItsSettingsSay) {
       1e-3);
 }
 
+// As a target of Retarget is exported.
+TEST(Fbx, WithNothingButASkeletonIsThatSkeleton) {
+  if (without_assimp()) GTEST_SKIP() << "built without Assimp";
+  Alone work;
+  std::string text = text_fbx(1, 2, 1, 1);
+  const std::size_t clip = text.find("AnimationStack"), links = text.find("}\nConnections");
+  text.erase(clip, links - clip);
+  const std::size_t of_clip = text.find("C: \"OO\",11,10");
+  text.erase(of_clip, text.rfind("}") - of_clip);
+  const Motion still = read(text, work).motion;
+  ASSERT_EQ(still.joints(), 3);
+  const char* const names[] = {"Hips", "Leg", "Foot"};
+  for (int j = 0; j < 3; ++j) EXPECT_EQ(still.skeleton().joints[j].name, names[j]);
+  const Pose pose = pose_at(still, 0);
+  EXPECT_NEAR(norm(pose.positions[0] - Vec3{0.1, 1, 0.05}), 0, 1e-6);
+}
+
 TEST(Fbx, GivesTheClipThatIsNamed) {
   if (without_assimp()) GTEST_SKIP() << "built without Assimp";
   Alone work;
