@@ -16,6 +16,9 @@ TOLERANCE = 1e-4  # of the height
 # -89.988°) they then lack half their digits: put together again in double precision, the file's own angles leave joints
 # up to 3.8e-4 m off Blender's pose. In all other frames, and of all other files, everything is within 6e-5.
 FBX_TOLERANCE = 1e-3
+# Blender keeps a bone's rest orientation as a tail and a roll in single precision; of the mannequin's hips it makes a
+# matrix whose columns are 2.4e-5 too long or short, and by so much its way is: 1.3e-4 of its height after 8 m of a run.
+BLENDER_BONES = 3e-5  # of the distance from the origin, where that is more than TOLERANCE
 HOME = pathlib.Path(__file__).resolve().parents[2]
 TOOLS = pathlib.Path(os.environ.get("KINEGRAPH_TOOLS", HOME / "../shared/tools")).resolve()
 MOCAP = pathlib.Path(os.environ.get("KINEGRAPH_MOCAP", HOME / "../shared/mocap")).resolve()
@@ -131,7 +134,9 @@ class Clients:
                 keep = [i for i, joint in enumerate(theirs["joints"]) if joint in set(written["joints"])]
                 theirs["joints"] = [theirs["joints"][i] for i in keep]
                 theirs["positions"] = [[frame[i] for i in keep] for frame in theirs["positions"]]
-            results.append(Checked(name, client, *difference(ours, theirs)))
+            places = itertools.chain.from_iterable(ours["positions"])
+            limit = limit_of_blender(places, ours) if client == "Blender" and not is_bvh else TOLERANCE
+            results.append(Checked(name, client, *difference(ours, theirs), limit))
         return results
 
     def why_not(self, client, is_bvh, written):
@@ -162,7 +167,9 @@ class Clients:
                 run("node", HOME / "tests/clients/vertices_three.mjs", without_textures(exported), out, fps, every,
                     folder=self.npm)
             theirs = json.loads(out.read_text())
-            results.append(Checked(name, f"{client} skin", *farthest_vertex(ours, theirs, TOLERANCE)))
+            places = itertools.chain.from_iterable(ours["vertices"].values())
+            limit = limit_of_blender(places, ours) if client == "Blender" and written["height"] else TOLERANCE
+            results.append(Checked(name, f"{client} skin", *farthest_vertex(ours, theirs, limit), limit))
         return results
 
     def fbx(self, case, source, *axis_up):
@@ -262,6 +269,11 @@ def without_textures(file):
     plain.write_bytes(struct.pack("<4sII", b"glTF", 2, 20 + len(text) + len(rest)) +
                       struct.pack("<I4s", len(text), b"JSON") + text + rest)
     return plain
+
+
+def limit_of_blender(places, ours):
+    reach = max(math.hypot(*p) for p in places)
+    return max(TOLERANCE, BLENDER_BONES * reach / ours["height"])
 
 
 def difference(ours, theirs):
