@@ -113,10 +113,13 @@ Points read_points_table(std::string_view text, const ReadOptions& options, Work
   while (!lines.at_end() && trimmed(header).empty()) header = lines.next();
   if (trimmed(header).empty()) fail_at(text, text.data(), "bad-header", "the file is empty");
   Columns columns = read_columns(text, header);
-  std::vector<double> values, times;
-  std::vector<bool> missing;
+  std::vector<double> times;
   int decimals = 0;
-  std::size_t rows = 0;
+  std::size_t rows = 0, frames = 0;
+  for (TextLines ahead = lines; !ahead.at_end();) frames += !trimmed(ahead.next()).empty();
+  frames = std::min(frames, text.size() / columns.count + 1);  // a row has a byte a cell
+  make_labels_unique(columns.labels, work);
+  Points points(columns.labels, options.rate, frames);
   while (!lines.at_end()) {
     const std::string_view line = lines.next();
     if (trimmed(line).empty()) continue;
@@ -140,31 +143,22 @@ Points read_points_table(std::string_view text, const ReadOptions& options, Work
       times.push_back(row[*columns.time]);
       decimals = std::max(decimals, decimals_of(cell));
     }
-    for (const auto& of : columns.of_label) {
-      missing.push_back(empty[of[0]] || empty[of[1]] || empty[of[2]]);
-      for (std::size_t axis : of) values.push_back(row[axis]);
+    for (int label = 0; label < static_cast<int>(columns.of_label.size()); ++label) {
+      const auto& of = columns.of_label[static_cast<std::size_t>(label)];
+      if (empty[of[0]] || empty[of[1]] || empty[of[2]]) {
+        points.set_missing(label, rows);
+      } else {
+        points.track(label).set(rows, {row[of[0]], row[of[1]], row[of[2]]});
+      }
     }
     if (++rows % 16 == 0) work.check();
   }
-  double rate = options.rate;
   if (times.size() >= 2) {
-    rate = rate_of_times(times, decimals);
-    if (rate <= 0)
+    points.fps = rate_of_times(times, decimals);
+    if (points.fps <= 0)
       throw Failure(error("bad-times", "the times don't rise evenly from row to row")
                         .hinting("resample the table, or leave out the column time and set rate"));
   }
-  const std::size_t count = columns.labels.size();
-  make_labels_unique(columns.labels, work);
-  Points points(columns.labels, rate, rows);
-  for (std::size_t t = 0; t < rows; ++t)
-    for (std::size_t label = 0; label < count; ++label) {
-      const double* at = values.data() + 3 * (t * count + label);
-      if (missing[t * count + label]) {
-        points.set_missing(static_cast<int>(label), t);
-      } else {
-        points.track(static_cast<int>(label)).set(t, {at[0], at[1], at[2]});
-      }
-    }
   if (!columns.ours && !names_a_unit(options.unit))
     work.report(
         warning("unit-unknown", "a table doesn't tell its unit; it is taken as metres").hinting("set unit"));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "nodes/files/decimal.h"
 #include "nodes/files/text_place.h"
@@ -17,7 +18,7 @@ namespace kinegraph {
 
 namespace {
 
-Points cut(const Points& points, FrameWindow window) {
+Points cut(Points points, FrameWindow window) {
   if (window.first == 0 && window.last == points.frames) return points;
   Points out(points.labels, points.fps, window.last - window.first);
   out.links = points.links;
@@ -67,7 +68,7 @@ double rounded(double value, int digits) {
 
 Points settled(Points in_file, const LengthUnit& unit, UpAxis up, const ReadOptions& options, Work& work) {
   const FrameWindow window = frames_to_keep(options, in_file.frames);
-  Points points = cut(in_file, window);
+  Points points = cut(std::move(in_file), window);
   const LengthUnit used = unit_from_param(options.unit, unit);
   points.unit = used.metres;
   points.unit_name = used.name;

@@ -83,10 +83,14 @@ std::vector<std::string> read_labels(TextLines& lines, const Header& header) {
 
 struct Rows {
   std::vector<double> times;
-  int decimals = 0;            // most digits after the point of a time
-  std::vector<double> values;  // a row after the other
-  std::vector<bool> missing;
+  int decimals = 0;  // most digits after the point of a time
 };
+
+std::size_t lines_left(TextLines lines) {
+  std::size_t count = 0;
+  for (; !lines.at_end(); ++count) lines.next();
+  return count;
+}
 
 // A cell's number; false where it is empty or NaN.
 bool read_cell(std::string_view text, std::string_view cell, double& value) {
@@ -96,8 +100,10 @@ bool read_cell(std::string_view text, std::string_view cell, double& value) {
   return true;
 }
 
-Rows read_rows(TextLines& lines, const Header& header, Work& work) {
+// Into `points`, as far as that has frames.
+Rows read_rows(TextLines& lines, const Header& header, Points& points, Work& work) {
   Rows rows;
+  double place[3] = {};
   const std::size_t wanted = 3 * header.markers;
   while (!lines.at_end()) {
     const std::string_view line = lines.next();
@@ -119,10 +125,18 @@ Rows read_rows(TextLines& lines, const Header& header, Work& work) {
               count < wanted ? "too-few-values" : "too-many-values",
               fmt::format("frame {:g} has {} values for {} markers", frame, count, header.markers),
               "the file is cut short or damaged there");
-    for (std::size_t i = 0; i < wanted; ++i) {
-      double value = 0;
-      rows.missing.push_back(!read_cell(lines.text(), cells[2 + i], value));
-      rows.values.push_back(value);
+    const std::size_t t = rows.times.size() - 1;
+    for (std::size_t i = 0; i < wanted; i += 3) {
+      bool missing = false;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        missing |= !read_cell(lines.text(), cells[2 + i + axis], place[axis]);
+      if (t >= points.frames) continue;
+      const int label = static_cast<int>(i / 3);
+      if (missing) {
+        points.set_missing(label, t);
+      } else {
+        points.track(label).set(t, {place[0], place[1], place[2]});
+      }
     }
     if (rows.times.size() % 16 == 0) work.check();
   }
@@ -159,17 +173,11 @@ Points read_trc(std::string_view text, const ReadOptions& options, Work& work) {
   const LengthUnit unit = unit_of_file(header.unit, options);
   std::vector<std::string> labels = read_labels(lines, header);
   make_labels_unique(labels, work);
-  const Rows rows = read_rows(lines, header, work);
-  Points points(std::move(labels), rate_of(header, rows, work), rows.times.size());
-  for (int label = 0; label < static_cast<int>(header.markers); ++label)
-    for (std::size_t t = 0; t < points.frames; ++t) {
-      const std::size_t at = 3 * (t * header.markers + static_cast<std::size_t>(label));
-      if (rows.missing[at] || rows.missing[at + 1] || rows.missing[at + 2]) {
-        points.set_missing(label, t);
-      } else {
-        points.track(label).set(t, {rows.values[at], rows.values[at + 1], rows.values[at + 2]});
-      }
-    }
+  // No more frames than there are lines and bytes for, whatever the header says.
+  const std::size_t most = std::min(lines_left(lines), text.size() / (3 * header.markers + 1) + 1);
+  Points points(std::move(labels), 0, std::min(header.frames, most));
+  const Rows rows = read_rows(lines, header, points, work);
+  points.fps = rate_of(header, rows, work);
   return settled(std::move(points), unit, UpAxis::y, options, work);
 }
 

@@ -200,6 +200,19 @@ TEST(C3d, HoldsMoreLabelsAndFramesThanOneParameterDoes) {
   EXPECT_EQ(read_c3d(write_c3d(longer, {}, work), {}, work).frames, 70000u);
 }
 
+// Room is made for no more frames than the file has bytes for.
+TEST(PointsFiles, WithManyColumnsAndManyShortLinesAreRefusedAtTheFirst) {
+  Alone work;
+  std::string header = "frame,time";
+  for (int i = 0; i < 20000; ++i)
+    for (const char* axis : {".x", ".y", ".z"}) header += ",p" + std::to_string(i) + axis;
+  std::string lines;
+  for (int i = 0; i < 300000; ++i) lines += "1\n";
+  const Diagnostic told = refusal([&] { read_points_table(header + "\n" + lines, {}, work); });
+  EXPECT_EQ(told.code, "too-few-values");
+  EXPECT_EQ(told.place.line, 2);
+}
+
 TEST(PointsFiles, OfACommaDecimalProgramAreRefusedAsSuch) {
   Alone work;
   const Diagnostic table =
