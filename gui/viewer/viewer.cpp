@@ -143,7 +143,7 @@ void Viewer::build_places(QToolBar& bar) {
     connect(action, &QAction::triggered, this, [this, place] { toggle_pin(place); });
     place_actions_[static_cast<std::size_t>(place - 1)] = action;
     if (QWidget* button = bar.widgetForAction(action)) {
-      button->setFixedWidth(18);
+      button->setFixedWidth(16);
       button->setStyleSheet("padding: 4px 0;");
       button->setAccessibleName(tr("Place %1").arg(place));
     }

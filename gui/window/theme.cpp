@@ -159,7 +159,7 @@ QToolBar::separator { background: %3; width: 1px; margin: 6px 6px; }
 QToolBar { background: %1; border: none; border-bottom: 1px solid %3; spacing: 4px; padding: 3px 6px; }
 QToolButton { border: 1px solid transparent; border-radius: 4px; padding: 4px 8px; }
 QToolBar#viewer_bar { spacing: 1px; padding: 3px 4px; }
-QToolBar#viewer_bar > QToolButton { padding: 4px 5px; }
+QToolBar#viewer_bar > QToolButton { padding: 4px 4px; }
 QToolButton:hover { background: %2; }
 QToolButton:checked { background: %6; }
 QPushButton { background: %2; border: 1px solid %3; border-radius: 4px; padding: 5px 14px; }
