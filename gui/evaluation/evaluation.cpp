@@ -63,6 +63,47 @@ double seconds_of(clockid_t clock) {
   return double(now.tv_sec) + double(now.tv_nsec) * 1e-9;
 }
 
+int rank(NodeStatus::State state) {
+  using State = NodeStatus::State;
+  switch (state) {
+    case State::failed:
+      return 5;
+    case State::running:
+      return 4;
+    case State::missing:
+    case State::incomplete:
+    case State::blocked:
+      return 3;
+    case State::waiting:
+      return 2;
+    case State::done:
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+// A Graph node stands as the nodes inside it do.
+void sum_up(std::map<std::string, NodeStatus>& statuses, const std::string& graph) {
+  const std::string inside = graph + "/";
+  auto at = statuses.lower_bound(inside);
+  if (at == statuses.end() || !at->first.starts_with(inside)) return;
+  NodeStatus sum = at->second;
+  for (++at; at != statuses.end() && at->first.starts_with(inside); ++at) {
+    const NodeStatus& status = at->second;
+    if (rank(status.state) > rank(sum.state)) {
+      sum.state = status.state;
+      sum.progress = status.progress;
+    }
+    sum.seconds += status.seconds;
+    if (status.cached == "no") sum.cached = "no";
+    sum.diagnostics.insert(sum.diagnostics.end(), status.diagnostics.begin(), status.diagnostics.end());
+  }
+  NodeStatus& own = statuses[graph];
+  sum.still = own.still;
+  own = std::move(sum);
+}
+
 // Nodes that something is wrong with stand aside as missing, so that all that doesn't depend on them still
 // runs: half of the graphs that a person edits aren't whole. What is wrong and of no node stays in
 // `problems`.
@@ -360,6 +401,8 @@ void Evaluation::finish(Run& run) {
   for (const auto& [node, unused] : run.plan.passed)
     if (run.request.document.nodes.count(node)) done.push_back(node);
   find_outdated(run.whole, result);
+  // Of what nothing asked for there is nothing to tell; with large graphs inside it is most.
+  std::erase_if(result.log.nodes, [](const auto& one) { return one.second.state == NodeState::skipped; });
   deliver(run.result);
   deliver_stills(run, done);
   if (!run.request.effects && !run.stop.stopped()) look_around(run);
@@ -483,46 +526,16 @@ void Evaluation::take_stills(const std::map<std::string, std::shared_ptr<const S
   }
 }
 
-// A Graph node stands as the nodes inside it do.
 void Evaluation::sum_up_graph_nodes() {
-  std::map<std::string, NodeStatus> sums;
-  const auto rank = [](NodeStatus::State state) {
-    using State = NodeStatus::State;
-    switch (state) {
-      case State::failed:
-        return 5;
-      case State::running:
-        return 4;
-      case State::missing:
-      case State::incomplete:
-      case State::blocked:
-        return 3;
-      case State::waiting:
-        return 2;
-      case State::done:
-        return 1;
-      default:
-        return 0;
-    }
-  };
+  std::vector<std::string> graphs;
   for (const auto& [name, status] : statuses_) {
     const std::size_t slash = name.find('/');
     if (slash == std::string::npos) continue;
-    auto [at, fresh] = sums.emplace(name.substr(0, slash), status);
-    if (fresh) continue;
-    NodeStatus& sum = at->second;
-    if (rank(status.state) > rank(sum.state)) {
-      sum.state = status.state;
-      sum.progress = status.progress;
-    }
-    sum.seconds += status.seconds;
-    if (status.cached == "no") sum.cached = "no";
-    for (const Diagnostic& problem : status.diagnostics) sum.diagnostics.push_back(problem);
+    if (graphs.empty() || name.compare(0, slash, graphs.back()) != 0) graphs.push_back(name.substr(0, slash));
   }
-  for (auto& [name, sum] : sums) {
-    sum.still = statuses_[name].still;
-    statuses_[name] = sum;
-    emit status_changed(QString::fromStdString(name));
+  for (const std::string& graph : graphs) {
+    sum_up(statuses_, graph);
+    emit status_changed(QString::fromStdString(graph));
   }
 }
 
@@ -549,8 +562,11 @@ void Evaluation::deliver_status(const Run& run, const std::string& node, NodeSta
         status.diagnostics = known.diagnostics;
         status.still = known.still;
         known = std::move(status);
-        if (node.find('/') != std::string::npos) sum_up_graph_nodes();
         emit status_changed(QString::fromStdString(node));
+        const std::size_t slash = node.find('/');
+        if (slash == std::string::npos) return;
+        sum_up(statuses_, node.substr(0, slash));
+        emit status_changed(QString::fromStdString(node.substr(0, slash)));
       },
       Qt::QueuedConnection);
 }

@@ -89,6 +89,7 @@ void Timeline::build() {
   row->addStretch(1);
   moment_ = new QLabel(this);
   moment_->setAccessibleName(tr("Moment"));
+  moment_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   row->addWidget(moment_);
   column->addLayout(row);
   tracks_ = new TimelineTracks(playback_, this);
@@ -257,6 +258,10 @@ void Timeline::update_moment() {
                        .arg(playback_.frames())
                        .arg(playback_.time(), 0, 'f', 2)
                        .arg(playback_.fps(), 0, 'g', 5));
+  // Of a size of its own, so that not every frame lays out the window anew.
+  const QSize needed = moment_->sizeHint();
+  if (needed.width() > moment_->width() || needed.height() != moment_->height())
+    moment_->setFixedSize(needed + QSize(moment_->fontMetrics().horizontalAdvance("00"), 0));
 }
 
 }  // namespace kinegraph
