@@ -5,7 +5,7 @@
 #include <QStandardPaths>
 #include <cstdio>
 
-#include "gui/window/editor_style.h"
+#include "gui/look/editor_style.h"
 #include "gui/window/main_window.h"
 #include "gui/window/screenshot.h"
 #include "nodes/all_nodes.h"

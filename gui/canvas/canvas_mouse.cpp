@@ -12,7 +12,7 @@
 #include "graph/nested.h"
 #include "gui/canvas/canvas_edits.h"
 #include "gui/canvas/graph_canvas.h"
-#include "gui/window/actions.h"
+#include "gui/look/actions.h"
 
 namespace kinegraph {
 namespace {

@@ -11,7 +11,7 @@
 #include "gui/canvas/search_box.h"
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
 
 class QMenu;
 class QPlainTextEdit;

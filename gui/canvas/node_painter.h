@@ -4,7 +4,7 @@
 
 #include "gui/canvas/graph_scene.h"
 #include "gui/evaluation/evaluation.h"
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
 
 namespace kinegraph {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "gui/components/component_figures.h"
+#include "gui/look/theme.h"
 #include "gui/viewer/picture_maker.h"
-#include "gui/window/theme.h"
 
 namespace kinegraph {
 

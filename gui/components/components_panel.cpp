@@ -16,7 +16,7 @@
 #include "graph/edit.h"
 #include "gui/components/component_edits.h"
 #include "gui/components/components_grid.h"
-#include "gui/viewer/looked_at.h"
+#include "gui/viewing/looked_at.h"
 
 namespace kinegraph {
 namespace {

@@ -11,8 +11,8 @@
 #include "gui/components/component_figures.h"
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
-#include "gui/timeline/playback.h"
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
+#include "gui/viewing/playback.h"
 
 class QBoxLayout;
 class QComboBox;

@@ -4,7 +4,7 @@
 #include <QRectF>
 #include <QString>
 
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
 
 namespace kinegraph {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
 
 namespace kinegraph {
 

@@ -5,8 +5,8 @@
 #include <QWidget>
 #include <vector>
 
-#include "gui/timeline/playback.h"
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
+#include "gui/viewing/playback.h"
 
 namespace kinegraph {
 

@@ -12,7 +12,7 @@
 #include "gui/curves/bar_plot.h"
 #include "gui/curves/channel_plot.h"
 #include "gui/curves/warp_plot.h"
-#include "gui/viewer/looked_at.h"
+#include "gui/viewing/looked_at.h"
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/metrics.h"
 #include "nodes/motion/motion.h"

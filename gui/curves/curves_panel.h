@@ -9,9 +9,9 @@
 #include "graph/evaluate/run_log.h"
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
-#include "gui/timeline/playback.h"
+#include "gui/look/theme.h"
 #include "gui/viewer/viewer.h"
-#include "gui/window/theme.h"
+#include "gui/viewing/playback.h"
 
 class QComboBox;
 class QLabel;

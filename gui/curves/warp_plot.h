@@ -6,9 +6,9 @@
 #include <QWidget>
 #include <memory>
 
-#include "gui/timeline/playback.h"
+#include "gui/look/theme.h"
 #include "gui/viewer/shown_motion.h"
-#include "gui/window/theme.h"
+#include "gui/viewing/playback.h"
 #include "nodes/time/warp.h"
 
 namespace kinegraph {

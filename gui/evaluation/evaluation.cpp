@@ -9,9 +9,9 @@
 #include <ctime>
 #include <utility>
 
-#include "graph/links.h"
 #include "graph/nested.h"
-#include "graph/validate.h"
+#include "gui/evaluation/sound_part.h"
+#include "gui/evaluation/sum_up.h"
 
 namespace kinegraph {
 namespace {
@@ -61,81 +61,6 @@ double seconds_of(clockid_t clock) {
   timespec now{};
   clock_gettime(clock, &now);
   return double(now.tv_sec) + double(now.tv_nsec) * 1e-9;
-}
-
-int rank(NodeStatus::State state) {
-  using State = NodeStatus::State;
-  switch (state) {
-    case State::failed:
-      return 5;
-    case State::running:
-      return 4;
-    case State::missing:
-    case State::incomplete:
-    case State::blocked:
-      return 3;
-    case State::waiting:
-      return 2;
-    case State::done:
-      return 1;
-    default:
-      return 0;
-  }
-}
-
-// A Graph node stands as the nodes inside it do.
-void sum_up(std::map<std::string, NodeStatus>& statuses, const std::string& graph) {
-  const std::string inside = graph + "/";
-  auto at = statuses.lower_bound(inside);
-  if (at == statuses.end() || !at->first.starts_with(inside)) return;
-  NodeStatus sum = at->second;
-  for (++at; at != statuses.end() && at->first.starts_with(inside); ++at) {
-    const NodeStatus& status = at->second;
-    if (rank(status.state) > rank(sum.state)) {
-      sum.state = status.state;
-      sum.progress = status.progress;
-    }
-    sum.seconds += status.seconds;
-    if (status.cached == "no") sum.cached = "no";
-    sum.diagnostics.insert(sum.diagnostics.end(), status.diagnostics.begin(), status.diagnostics.end());
-  }
-  NodeStatus& own = statuses[graph];
-  sum.still = own.still;
-  own = std::move(sum);
-}
-
-// Nodes that something is wrong with stand aside as missing, so that all that doesn't depend on them still
-// runs: half of the graphs that a person edits aren't whole. What is wrong and of no node stays in
-// `problems`.
-Plan plan_of_sound_part(EvaluationRequest& request, const Registry& registry, const PlanOptions& options,
-                        std::map<std::string, Diagnostics>& left_out, Diagnostics& problems) {
-  const auto set_aside = [&](const Diagnostics& found) {
-    bool any = false;
-    for (const Diagnostic& problem : found) {
-      if (problem.severity != Severity::error) continue;
-      const std::string name = problem.node.substr(0, problem.node.find('/'));
-      auto node = request.document.nodes.find(name);
-      if (node == request.document.nodes.end() || node->second.missing) continue;
-      left_out[name].push_back(problem);
-      node->second.missing = to_json(node->second);
-      node->second.nested.reset();
-      any = true;
-    }
-    return any;
-  };
-  for (const std::vector<std::string>& round : cycles(request.document))
-    for (const std::string& name : round)
-      set_aside({error("cycle", "it is part of a cycle").at_node(name).hinting("cut one of its links")});
-  ValidateOptions validating;
-  validating.file = request.file;
-  validating.folder = request.folder;
-  validating.check_files = false;  // a missing file fails the node that reads it
-  set_aside(validate(request.document, registry, validating));
-  for (;;) {
-    problems.clear();
-    Plan plan = make_plan(request.document, registry, options, problems);
-    if (!has_error(problems) || !set_aside(problems)) return plan;
-  }
 }
 
 }  // namespace
@@ -402,7 +327,7 @@ void Evaluation::finish(Run& run) {
     if (run.request.document.nodes.count(node)) done.push_back(node);
   find_outdated(run.whole, result);
   // Of what nothing asked for there is nothing to tell; with large graphs inside it is most.
-  std::erase_if(result.log.nodes, [](const auto& one) { return one.second.state == NodeState::skipped; });
+  std::erase_if(result.log.nodes, [](const auto& entry) { return entry.second.state == NodeState::skipped; });
   deliver(run.result);
   deliver_stills(run, done);
   if (!run.request.effects && !run.stop.stopped()) look_around(run);
@@ -501,14 +426,14 @@ void Evaluation::look_around(Run& run) {
           std::lock_guard lock(mutex_);
           if (seen->graph != graph_ || seen->generation != generation_) return;
         }
-        for (const auto& [name, run] : seen->log.nodes) {
+        for (const auto& [name, found] : seen->log.nodes) {
           NodeStatus& status = statuses_[name];
           if (status.state == NodeStatus::State::done && !status.cached.empty()) continue;
           const auto still = status.still;
           status = {};
           status.state = NodeStatus::State::done;
           status.still = still;
-          status.cached = run.outputs.begin()->second.cached;
+          status.cached = found.outputs.begin()->second.cached;
           emit status_changed(QString::fromStdString(name));
         }
         take_stills(seen->stills);

@@ -11,9 +11,9 @@
 #include <QVBoxLayout>
 #include <vector>
 
-#include "gui/window/ask_file.h"
-#include "gui/window/icons.h"
-#include "gui/window/settings.h"
+#include "gui/look/ask_file.h"
+#include "gui/look/icons.h"
+#include "gui/look/settings.h"
 
 namespace kinegraph {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "gui/document/session.h"
+#include "gui/look/theme.h"
 #include "gui/panels/clip_walk.h"
-#include "gui/window/theme.h"
 
 class QLineEdit;
 

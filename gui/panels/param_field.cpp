@@ -11,9 +11,9 @@
 #include <QToolButton>
 #include <QWheelEvent>
 
+#include "gui/look/ask_file.h"
 #include "gui/panels/arithmetic.h"
 #include "gui/panels/text_field.h"
-#include "gui/window/ask_file.h"
 
 namespace kinegraph {
 namespace {

@@ -15,8 +15,8 @@
 
 #include "graph/nested.h"
 #include "gui/canvas/node_painter.h"
-#include "gui/panels/problem_text.h"
-#include "gui/viewer/looked_at.h"
+#include "gui/document/problem_text.h"
+#include "gui/viewing/looked_at.h"
 #include "nodes/motion/motion.h"
 
 namespace kinegraph {

@@ -6,8 +6,8 @@
 
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
+#include "gui/look/theme.h"
 #include "gui/panels/param_field.h"
-#include "gui/window/theme.h"
 
 class QCheckBox;
 class QFormLayout;

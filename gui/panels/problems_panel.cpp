@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <set>
 
-#include "gui/panels/problem_text.h"
+#include "gui/document/problem_text.h"
 
 namespace kinegraph {
 namespace {

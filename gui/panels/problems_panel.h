@@ -6,7 +6,7 @@
 
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
 
 class QLabel;
 

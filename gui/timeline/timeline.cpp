@@ -11,7 +11,7 @@
 
 #include "gui/timeline/timeline_tracks.h"
 #include "gui/timeline/transport_icon.h"
-#include "gui/viewer/looked_at.h"
+#include "gui/viewing/looked_at.h"
 
 namespace kinegraph {
 namespace {

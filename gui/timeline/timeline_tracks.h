@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "gui/timeline/playback.h"
+#include "gui/look/theme.h"
 #include "gui/viewer/shown_motion.h"
-#include "gui/window/theme.h"
+#include "gui/viewing/playback.h"
 #include "nodes/time/warp.h"
 
 namespace kinegraph {

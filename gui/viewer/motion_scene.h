@@ -2,9 +2,9 @@
 #pragma once
 #include <vector>
 
+#include "gui/look/theme.h"
 #include "gui/viewer/scene.h"
 #include "gui/viewer/shown_motion.h"
-#include "gui/window/theme.h"
 
 namespace kinegraph {
 

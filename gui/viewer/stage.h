@@ -6,9 +6,9 @@
 #include <QWidget>
 #include <vector>
 
+#include "gui/look/theme.h"
 #include "gui/viewer/picture_maker.h"
 #include "gui/viewer/scene.h"
-#include "gui/window/theme.h"
 
 namespace kinegraph {
 

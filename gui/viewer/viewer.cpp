@@ -12,11 +12,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gui/panels/problem_text.h"
-#include "gui/viewer/looked_at.h"
+#include "gui/document/problem_text.h"
+#include "gui/look/icons.h"
 #include "gui/viewer/motion_scene.h"
 #include "gui/viewer/stage.h"
-#include "gui/window/icons.h"
+#include "gui/viewing/looked_at.h"
 
 namespace kinegraph {
 namespace {

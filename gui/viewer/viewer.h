@@ -11,11 +11,11 @@
 #include "graph/evaluate/run_log.h"
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
-#include "gui/timeline/playback.h"
+#include "gui/look/theme.h"
 #include "gui/viewer/orbit_camera.h"
 #include "gui/viewer/shown_motions.h"
 #include "gui/viewer/skin_boxes.h"
-#include "gui/window/theme.h"
+#include "gui/viewing/playback.h"
 
 class QAction;
 class QComboBox;

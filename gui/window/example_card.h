@@ -4,7 +4,7 @@
 
 #include "graph/registry.h"
 #include "gui/canvas/graph_scene.h"
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
 
 namespace kinegraph {
 

@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "graph/nested.h"
-#include "gui/viewer/looked_at.h"
-#include "gui/window/settings.h"
+#include "gui/look/settings.h"
+#include "gui/viewing/looked_at.h"
 #include "gui/window/welcome.h"
 
 // Resources of a library are only there when they are asked for.

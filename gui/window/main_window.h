@@ -10,10 +10,10 @@
 #include "gui/document/known_files.h"
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
-#include "gui/timeline/playback.h"
-#include "gui/window/icons.h"
+#include "gui/look/icons.h"
+#include "gui/look/theme.h"
+#include "gui/viewing/playback.h"
 #include "gui/window/notice_bar.h"
-#include "gui/window/theme.h"
 
 class QDockWidget;
 class QLabel;

@@ -10,7 +10,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "gui/window/actions.h"
+#include "gui/look/actions.h"
 #include "gui/window/main_window.h"
 
 namespace kinegraph {

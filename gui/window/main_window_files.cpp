@@ -9,10 +9,10 @@
 
 #include "graph/nested.h"
 #include "gui/canvas/canvas_edits.h"
-#include "gui/panels/problem_text.h"
-#include "gui/window/ask_file.h"
+#include "gui/document/problem_text.h"
+#include "gui/look/ask_file.h"
+#include "gui/look/settings.h"
 #include "gui/window/main_window.h"
-#include "gui/window/settings.h"
 #include "gui/window/wait_aside.h"
 
 namespace kinegraph {

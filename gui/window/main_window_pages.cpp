@@ -9,7 +9,7 @@
 #include "graph/collapse.h"
 #include "graph/file/write.h"
 #include "graph/nested.h"
-#include "gui/window/ask_file.h"
+#include "gui/look/ask_file.h"
 #include "gui/window/main_window.h"
 
 namespace kinegraph {

@@ -14,8 +14,8 @@
 
 #include "graph/nested.h"
 #include "gui/canvas/canvas_edits.h"
+#include "gui/look/ask_file.h"
 #include "gui/panels/files_panel.h"
-#include "gui/window/ask_file.h"
 
 namespace kinegraph {
 namespace {

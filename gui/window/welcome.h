@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "graph/registry.h"
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
 
 class QScrollArea;
 

@@ -1,5 +1,5 @@
 // The table of actions, each run by its keys alone.
-#include "gui/window/actions.h"
+#include "gui/look/actions.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include <QApplication>
 #include <QStandardPaths>
 
-#include "gui/window/editor_style.h"
+#include "gui/look/editor_style.h"
 #include "tests/gui/kill_test.h"
 
 int main(int argc, char** argv) {

@@ -5,8 +5,8 @@
 #include <QTreeWidget>
 
 #include "gui/canvas/fuzzy.h"
+#include "gui/document/problem_text.h"
 #include "gui/panels/arithmetic.h"
-#include "gui/panels/problem_text.h"
 #include "gui/panels/variants.h"
 #include "tests/gui/editor.h"
 
@@ -143,9 +143,8 @@ TEST(EditorFiles, ListsTheClipsBesideTheGraphAsTheyAreNow) {
   editor.session().save_as(editor.folder.filePath("graph.kg.json"));
   auto* tree = editor.window.findChild<QTreeWidget*>("file_tree");
   const auto lists = [&](const QString& name) {
-    return QTest::qWaitFor([&] {
-      return !tree->findItems(name, Qt::MatchExactly | Qt::MatchRecursive).isEmpty();
-    });
+    return QTest::qWaitFor(
+        [&] { return !tree->findItems(name, Qt::MatchExactly | Qt::MatchRecursive).isEmpty(); });
   };
   editor.window.show_dock("Files");
   EXPECT_TRUE(lists("takes/deep/one.bvh"));

@@ -1,4 +1,4 @@
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
 
 #include <gtest/gtest.h>
 

@@ -15,10 +15,10 @@
 #include "gui/curves/curves_panel.h"
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
-#include "gui/timeline/playback.h"
+#include "gui/look/theme.h"
 #include "gui/timeline/timeline.h"
 #include "gui/viewer/viewer.h"
-#include "gui/window/theme.h"
+#include "gui/viewing/playback.h"
 #include "nodes/all_nodes.h"
 
 namespace kinegraph {

@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "graph/file/write.h"
+#include "gui/look/editor_style.h"
 #include "gui/viewer/shown_motion.h"
 #include "gui/viewer/viewer.h"
-#include "gui/window/editor_style.h"
 #include "gui/window/main_window.h"
 #include "nodes/all_nodes.h"
 

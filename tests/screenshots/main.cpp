@@ -11,8 +11,8 @@
 #include "graph/file/read.h"
 #include "gui/canvas/canvas_edits.h"
 #include "gui/components/components_grid.h"
+#include "gui/look/editor_style.h"
 #include "gui/window/changes_dialog.h"
-#include "gui/window/editor_style.h"
 #include "tests/screenshots/shots.h"
 
 namespace kinegraph::shots {

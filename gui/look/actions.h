@@ -5,7 +5,7 @@
 #include <QStringList>
 #include <span>
 
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
 
 namespace kinegraph {
 

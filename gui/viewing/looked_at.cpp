@@ -1,4 +1,4 @@
-#include "gui/viewer/looked_at.h"
+#include "gui/viewing/looked_at.h"
 
 #include <algorithm>
 #include <cctype>

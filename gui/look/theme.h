@@ -13,7 +13,8 @@ struct Theme {
   QColor window, panel, raised, line, text, faint_text, accent, selection;
   QColor canvas, grid, node, node_title, node_line, wire, still_ground;
   QColor good, running, warning, error, missing;
-  QColor ground, ground_line, sky, bone, joint, skin, left, right, second, shadow, stretch_short, stretch_long;
+  QColor ground, ground_line, sky, bone, joint, skin, left, right, second, shadow, stretch_short,
+      stretch_long;
 
   // Of a port type's wires and ports; the shape tells types apart without colour.
   QColor port(std::string_view type) const;

@@ -2,7 +2,7 @@
 #pragma once
 #include <QIcon>
 
-#include "gui/window/theme.h"
+#include "gui/look/theme.h"
 
 namespace kinegraph {
 

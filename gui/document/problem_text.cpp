@@ -1,4 +1,4 @@
-#include "gui/panels/problem_text.h"
+#include "gui/document/problem_text.h"
 
 #include <QFileInfo>
 #include <QObject>

@@ -1,4 +1,4 @@
-#include "gui/window/settings.h"
+#include "gui/look/settings.h"
 
 namespace kinegraph {
 

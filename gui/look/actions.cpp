@@ -1,4 +1,4 @@
-#include "gui/window/actions.h"
+#include "gui/look/actions.h"
 
 #include <QKeySequence>
 #include <QObject>

@@ -1,4 +1,4 @@
-#include "gui/window/ask_file.h"
+#include "gui/look/ask_file.h"
 
 #include <QFileDialog>
 #include <QFileInfo>

@@ -1,4 +1,4 @@
-#include "gui/window/editor_style.h"
+#include "gui/look/editor_style.h"
 
 #include <QAbstractItemView>
 #include <QApplication>
@@ -7,7 +7,7 @@
 #include <QStyleOption>
 #include <optional>
 
-#include "gui/window/icons.h"
+#include "gui/look/icons.h"
 
 namespace kinegraph {
 namespace {

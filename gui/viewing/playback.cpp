@@ -1,4 +1,4 @@
-#include "gui/timeline/playback.h"
+#include "gui/viewing/playback.h"
 
 #include <algorithm>
 #include <cmath>

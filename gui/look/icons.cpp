@@ -1,4 +1,4 @@
-#include "gui/window/icons.h"
+#include "gui/look/icons.h"
 
 #include <QPainter>
 #include <QPainterPath>
