@@ -77,8 +77,7 @@ TEST(Viewer, TurnsWithTheMouseAndFramesWithF) {
   const QPoint inside = stage->mapFrom(window.viewer, at);
   editor_test::drag(*stage, inside, inside + QPoint(120, 10));
   EXPECT_NE(window.viewer->picture(), before);
-  // What F frames depends on where one looks from.
-  QTest::keyClick(window.viewer, Qt::Key_F);
+  QTest::keyClick(window.viewer, Qt::Key_F);  // as near as this side allows
   const QImage turned = window.viewer->picture();
   EXPECT_NE(turned, before);
   editor_test::drag(*stage, inside, inside + QPoint(60, 60), {.button = Qt::MiddleButton});
