@@ -1,6 +1,8 @@
 #include "nodes/components/channels.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "nodes/components/decomposed_pose.h"
 #include "nodes/components/stabilised_points.h"
@@ -33,12 +35,16 @@ Rows channels_of(const ChannelSpace& space, const Motion& motion, const std::vec
                         .hinting("bring it to the components' skeleton with Retarget"));
   Rows out(space.channels(), frames);
   if (space.representation == Representation::points) {
-    RootedPose pose;
-    for (std::size_t t = 0; t < frames; ++t) {
-      if (t % 256 == 0) work.check();
-      rooted_pose(prepared, t, pose);
-      for (std::size_t i = 0; i < space.joints.size(); ++i)
-        put(out, i * per, t, pose.positions[space.joints[i]]);
+    RootedPoses poses;
+    for (std::size_t begin = 0; begin < frames; begin += frames_at_a_time) {
+      work.check();
+      rooted_poses(prepared, begin, std::min(frames, begin + frames_at_a_time), poses);
+      for (std::size_t i = 0; i < space.joints.size(); ++i) {
+        const ConstVec3Track track = std::as_const(poses.positions)[space.joints[i]];
+        std::copy(track.x.begin(), track.x.end(), out.row(i * per) + begin);
+        std::copy(track.y.begin(), track.y.end(), out.row(i * per + 1) + begin);
+        std::copy(track.z.begin(), track.z.end(), out.row(i * per + 2) + begin);
+      }
     }
     return out;
   }

@@ -161,8 +161,9 @@ class Editing {
     } else if (inputs_.edited_motion && base().motion) {
       check_length(inputs_.edited_motion->frames());
       // ComponentMotion gave a motion with whole bones; what that alone changed is no edit.
-      std::vector<double> near;
-      for (std::size_t d = 0; d < alone.rows; ++d) near.push_back(alone(d, 0));
+      std::vector<double> near;  // only Euler angles have turns to count
+      if (now_.space.representation == Representation::euler)
+        for (std::size_t d = 0; d < alone.rows; ++d) near.push_back(alone(d, 0));
       ShownKey key{{base().motion}, entries, {}};
       for (std::size_t i : entries) key.signals.insert(key.signals.end(), u_.row(i), u_.row(i) + frames());
       const auto shown = now_.memory->shown.get(
@@ -172,7 +173,10 @@ class Editing {
             return channels_of(now_.space, motion, near, work);
           },
           work_);
-      add(added, channels_of(now_.space, *inputs_.edited_motion, near, work_), *shown);
+      const auto edited = now_.memory->edited.get(
+          {{inputs_.edited_motion}, near},
+          [&](Work& work) { return channels_of(now_.space, *inputs_.edited_motion, near, work); }, work_);
+      add(added, *edited, *shown);
     } else {
       throw no_input("edited");
     }

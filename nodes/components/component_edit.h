@@ -1,6 +1,7 @@
 // Editing a motion by its components [Shapiro §4, §5; Cao §5, §6]: the signals of one segment are changed one
 // edit after the other, and become a motion again.
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -71,8 +72,8 @@ struct ComponentEditParams {
 };
 struct ComponentEditInputs {
   const Components* other = nullptr;
-  const Motion* edited_motion = nullptr;
-  const Points* edited_points = nullptr;
+  std::shared_ptr<const Motion> edited_motion;
+  std::shared_ptr<const Points> edited_points;
 };
 
 struct ComponentEditResult {

@@ -58,8 +58,10 @@ void edit(Compute& node) {
   settings.residual = params.boolean("residual");
   ComponentEditInputs inputs;
   inputs.other = node.optional_input<Components>("other");
-  inputs.edited_motion = node.optional_input<Motion>("edited");
-  inputs.edited_points = node.optional_input<Points>("edited");
+  if (const auto edited = node.values("edited"); !edited.empty()) {
+    inputs.edited_motion = std::dynamic_pointer_cast<const Motion>(edited.front());
+    inputs.edited_points = std::dynamic_pointer_cast<const Points>(edited.front());
+  }
   ComponentEditResult result = edit_components(components, settings, inputs, node.work());
   const WayBack way{params.boolean("limbs"), params.boolean("root")};
   const ComponentSegment& base = result.components.segments[result.segment];

@@ -36,9 +36,17 @@ struct ShownKey {
   bool operator==(const ShownKey&) const = default;
 };
 
+// All that the channels of a changed ComponentMotion depend on.
+struct EditedKey {
+  SameClip clip;
+  std::vector<double> near;  // of Euler angles: where the first frame's full turns are counted from
+  bool operator==(const EditedKey&) const = default;
+};
+
 struct ComponentMemory {
   LastFew<AlignmentKey, Correspondence, 4> alignments;
   LastFew<ShownKey, Rows, 1> shown;
+  LastFew<EditedKey, Rows, 1> edited;
 };
 
 }  // namespace kinegraph

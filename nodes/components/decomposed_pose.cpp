@@ -1,5 +1,9 @@
 #include "nodes/components/decomposed_pose.h"
 
+#include <algorithm>
+
+#include "nodes/motion/track_kernels.h"
+
 namespace kinegraph {
 
 DecomposedPose::DecomposedPose(const ChannelSpace& space, const Motion& motion, Work& work)
@@ -25,29 +29,63 @@ Quat DecomposedPose::local(int joint, std::size_t t) const {
   return space_.heading ? root_.rho[t] : about_y(root_.heading[t]) * root_.rho[t];
 }
 
-Vec3 DecomposedPose::link(int joint, std::size_t t) const {
+void DecomposedPose::links(int joint, std::size_t begin, Vec3Track out) const {
   const int at = joint_of_[joint];
-  const Vec3 offset =
-      at > 0 && motion_.translates(at) ? motion_.local_offset(at, t) : skeleton_.joints[joint].offset;
-  return stretch_[joint] == 1 ? offset : stretch_[joint] * offset;
+  const double stretch = stretch_[joint];
+  const auto fill = [&](std::span<double> to, std::span<const double> moving, double fixed) {
+    if (moving.empty())
+      std::fill(to.begin(), to.end(), stretch == 1 ? fixed : stretch * fixed);
+    else
+      std::transform(moving.begin() + static_cast<std::ptrdiff_t>(begin),
+                     moving.begin() + static_cast<std::ptrdiff_t>(begin + to.size()), to.begin(),
+                     [&](double x) { return stretch == 1 ? x : stretch * x; });
+  };
+  const ConstVec3Track moving = at > 0 && motion_.translates(at) ? motion_.translation(at) : ConstVec3Track{};
+  const Vec3 fixed = skeleton_.joints[joint].offset;
+  fill(out.x, moving.x, fixed.x);
+  fill(out.y, moving.y, fixed.y);
+  fill(out.z, moving.z, fixed.z);
 }
 
-void rooted_pose(const DecomposedPose& motion, std::size_t t, RootedPose& pose) {
+namespace {
+
+ConstQuatTrack part(ConstQuatTrack track, std::size_t begin, std::size_t count) {
+  return {track.x.subspan(begin, count), track.y.subspan(begin, count), track.z.subspan(begin, count),
+          track.w.subspan(begin, count)};
+}
+
+}  // namespace
+
+void rooted_poses(const DecomposedPose& motion, std::size_t begin, std::size_t end, RootedPoses& poses) {
   const Skeleton& skeleton = motion.skeleton();
-  const std::size_t n = skeleton.joints.size();
-  pose.positions.resize(n);
-  pose.world.resize(n);
-  pose.local.resize(n);
+  const std::size_t joints = skeleton.joints.size(), frames = end - begin;
+  if (poses.frames() != frames || poses.local.size() != joints)
+    poses = {JointPositions(joints, frames), JointRotations(joints, frames),
+             std::vector<ConstQuatTrack>(joints), std::vector<JointRotations>(joints)};
+  JointPositions links(1, frames);
   for (int j = 0; j < skeleton.size(); ++j) {
-    pose.local[j] = motion.local(j, t);
+    if (const int at = motion.joint(j); at > 0) {
+      poses.local[j] = part(motion.motion().rotation(at), begin, frames);
+    } else {
+      JointRotations& own = poses.own_local[j];
+      if (own.frames() != frames) own = JointRotations(1, frames);
+      for (std::size_t t = 0; t < frames; ++t) own[0].set(t, motion.local(j, begin + t));
+      poses.local[j] = std::as_const(own)[0];
+    }
+    const QuatTrack world = poses.world[j];
+    const Vec3Track position = poses.positions[j];
     const int parent = skeleton.joints[j].parent;
     if (parent < 0) {
-      pose.positions[j] = {};
-      pose.world[j] = pose.local[j];
-    } else {
-      pose.positions[j] = pose.positions[parent] + rotate(pose.world[parent], motion.link(j, t));
-      pose.world[j] = pose.world[parent] * pose.local[j];
+      for (std::size_t t = 0; t < frames; ++t) {
+        position.set(t, {});
+        world.set(t, poses.local[j][t]);
+      }
+      continue;
     }
+    motion.links(j, begin, links[0]);
+    const ConstQuatTrack above = std::as_const(poses.world)[parent];
+    hang_tracks(std::as_const(poses.positions)[parent], above, std::as_const(links)[0], position);
+    compose_tracks(above, false, poses.local[j], world);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "graph/work.h"
 #include "nodes/components/channels.h"
+#include "nodes/components/joint_tracks.h"
 #include "nodes/motion/encoded_root.h"
 
 namespace kinegraph {
@@ -17,8 +18,8 @@ class DecomposedPose {
   // `joint`: of the space's skeleton, here and below. At rest where the motion lacks it. The root's rotation
   // is ρ, in world, or in world as it stands.
   Quat local(int joint, std::size_t t) const;
-  // From the parent to `joint`, in the parent's frame.
-  Vec3 link(int joint, std::size_t t) const;
+  // From the parent to `joint`, in the parent's frame, of as many frames as fit, from `begin` on.
+  void links(int joint, std::size_t begin, Vec3Track out) const;
   // The motion's joint, or -1.
   int joint(int of_space) const { return joint_of_[of_space]; }
   const EncodedRoot& root() const { return root_; }
@@ -36,11 +37,19 @@ class DecomposedPose {
   std::vector<double> stretch_;  // the space's length of each link by the motion's
 };
 
-// Positions of all joints with the root at the origin, and orientations in world and local.
-struct RootedPose {
-  std::vector<Vec3> positions;
-  std::vector<Quat> world, local;
+// Positions of all joints with the root at the origin, and orientations in world and local, of some frames.
+// Outlives neither the pose nor its motion.
+struct RootedPoses {
+  JointPositions positions;
+  JointRotations world;
+  std::vector<ConstQuatTrack> local;
+  std::vector<JointRotations> own_local;  // of joints whose rotations aren't the motion's own
+  std::size_t frames() const { return positions.frames(); }
 };
-void rooted_pose(const DecomposedPose& motion, std::size_t t, RootedPose& pose);
+// Frames [begin, end) into `poses`, whose memory is used again.
+void rooted_poses(const DecomposedPose& motion, std::size_t begin, std::size_t end, RootedPoses& poses);
+
+// How many frames are done at a time: so many that all their poses stay in the second cache.
+constexpr std::size_t frames_at_a_time = 64;
 
 }  // namespace kinegraph

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "nodes/motion/track_kernels.h"
 
 namespace kinegraph {
 namespace {
@@ -163,42 +166,57 @@ void PointsToRotations::collect(int joint, std::vector<int> through, const std::
   }
 }
 
-void PointsToRotations::frame(const std::vector<Vec3>& positions, const std::vector<Quat>& base_local,
-                              const std::vector<Quat>& base_world, std::vector<Quat>& world) const {
-  std::vector<Vec3> from, to;
+void PointsToRotations::frames(const JointPositions& positions, const RootedPoses& base,
+                               JointRotations& world) const {
+  Pairs pairs;
   for (int j = 0; j < skeleton_.size(); ++j) {
     const std::vector<Aim>& aims = aims_[j];
-    if (aims.size() == 1) {
-      const Vec3 link = positions[aims[0].target] - positions[j];
-      const double length = norm(link);
-      if (length >= 1e-9) {
-        world[j] = aimed(base_world[j], rest_of(aims[0], base_local), aims[0].length, link, length);
-        continue;
+    const QuatTrack out = world[j];
+    const int parent = skeleton_.joints[j].parent;
+    if (aims.empty() && parent >= 0) {
+      compose_tracks(std::as_const(world)[parent], false, base.local[j], out);
+      continue;
+    }
+    const bool is_single = aims.size() == 1 && aims[0].through.empty();
+    std::size_t t = 0;
+    while (t < base.frames()) {
+      if (is_single)
+        t = aim_tracks(std::as_const(base.world)[j], skeleton_.joints[aims[0].target].offset, aims[0].length,
+                       positions[j], positions[aims[0].target], out, t);
+      if (t < base.frames()) {
+        out.set(t, orientation(j, t, positions, base, world, pairs));
+        ++t;
       }
-    }
-    from.clear();
-    to.clear();
-    for (const Aim& aim : aims) {
-      const Vec3 link = positions[aim.target] - positions[j];
-      const double length = norm(link);
-      if (length < 1e-9) continue;
-      from.push_back(rest_of(aim, base_local));
-      to.push_back(aim.length / length * link);
-    }
-    if (from.size() >= 2) {
-      world[j] = best_rotation(from, to, base_world[j]);
-    } else if (from.size() == 1) {
-      world[j] = normalized(smallest_turn(rotate(base_world[j], from[0]), to[0]) * base_world[j]);
-    } else {
-      const int parent = skeleton_.joints[j].parent;
-      world[j] = parent < 0 ? base_world[j] : world[parent] * base_local[j];
     }
   }
 }
 
-Vec3 PointsToRotations::rest_of(const Aim& aim, const std::vector<Quat>& base_local) const {
+Quat PointsToRotations::orientation(int joint, std::size_t t, const JointPositions& positions,
+                                    const RootedPoses& base, const JointRotations& world,
+                                    Pairs& pairs) const {
+  const std::vector<Aim>& aims = aims_[joint];
+  const Vec3 start = positions[joint][t];
+  const Quat before = base.world[joint][t];
+  pairs.from.clear();
+  pairs.to.clear();
+  for (const Aim& aim : aims) {
+    const Vec3 link = positions[aim.target][t] - start;
+    const double length = norm(link);
+    if (length < 1e-9) continue;
+    if (aims.size() == 1) return aimed(before, rest_of(aim, base, t), aim.length, link, length);
+    pairs.from.push_back(rest_of(aim, base, t));
+    pairs.to.push_back(aim.length / length * link);
+  }
+  if (pairs.from.size() >= 2) return best_rotation(pairs.from, pairs.to, before);
+  if (pairs.from.size() == 1)
+    return normalized(smallest_turn(rotate(before, pairs.from[0]), pairs.to[0]) * before);
+  const int parent = skeleton_.joints[joint].parent;
+  return parent < 0 ? before : world[parent][t] * base.local[joint][t];
+}
+
+Vec3 PointsToRotations::rest_of(const Aim& aim, const RootedPoses& base, std::size_t t) const {
   Vec3 rest = skeleton_.joints[aim.target].offset;
-  for (auto k = aim.through.rbegin(); k != aim.through.rend(); ++k) rest = rotate(base_local[*k], rest);
+  for (auto k = aim.through.rbegin(); k != aim.through.rend(); ++k) rest = rotate(base.local[*k][t], rest);
   return rest;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include "nodes/components/decomposed_pose.h"
 #include "nodes/motion/skeleton.h"
 
 namespace kinegraph {
@@ -15,15 +16,13 @@ class PointsToRotations {
   PointsToRotations(const Skeleton& skeleton, const std::vector<bool>& known,
                     const std::vector<bool>& turning);
 
-  // One frame's world orientations (relative to the frame that the positions stand in) into `world`, all of
-  // size skeleton.size(). positions: only known joints are read. base_local, base_world: the base motion's
-  // rotations in that same frame. A joint with two or more links turns by the best rotation of them [Kabsch
-  // 1976], one with a single link by the smallest turn of the base's orientation that aims it, the others
-  // keep the base's local rotation. A link leads to a known child off the joint; children that sit on the
-  // joint itself pass theirs on. Only the links' directions count, so stretched points give the same
-  // rotations.
-  void frame(const std::vector<Vec3>& positions, const std::vector<Quat>& base_local,
-             const std::vector<Quat>& base_world, std::vector<Quat>& world) const;
+  // World orientations (relative to the frame that the positions stand in) of some frames into `world`.
+  // positions: only known joints are read. base: the base motion in that same frame, for the same frames. A
+  // joint with two or more links turns by the best rotation of them [Kabsch 1976], one with a single link by
+  // the smallest turn of the base's orientation that aims it, the others keep the base's local rotation. A
+  // link leads to a known child off the joint; children that sit on the joint itself pass theirs on. Only the
+  // links' directions count, so stretched points give the same rotations.
+  void frames(const JointPositions& positions, const RootedPoses& base, JointRotations& world) const;
 
  private:
   struct Aim {
@@ -31,7 +30,13 @@ class PointsToRotations {
     double length;             // of the link at rest
     std::vector<int> through;  // joints between, all at this joint's place
   };
-  Vec3 rest_of(const Aim& aim, const std::vector<Quat>& base_local) const;
+  struct Pairs {  // links at rest, and where they should point
+    std::vector<Vec3> from, to;
+  };
+  Vec3 rest_of(const Aim& aim, const RootedPoses& base, std::size_t t) const;
+  // One joint at one frame, whatever it has.
+  Quat orientation(int joint, std::size_t t, const JointPositions& positions, const RootedPoses& base,
+                   const JointRotations& world, Pairs& pairs) const;
   void collect(int joint, std::vector<int> through, const std::vector<bool>& known,
                std::vector<Aim>& aims) const;
 

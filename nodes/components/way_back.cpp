@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <utility>
 
 #include "nodes/components/channels.h"
 #include "nodes/components/decomposed_pose.h"
 #include "nodes/components/points_to_rotations.h"
 #include "nodes/components/stabilised_points.h"
+#include "nodes/motion/track_kernels.h"
 
 namespace kinegraph {
 namespace {
@@ -69,6 +71,21 @@ class Rebuilt {
     if (at > 0) motion_.rotation(at).set(t, q);
     if (at == 0) rho_[t] = base_.heading() ? q : about_y(-base_.root().heading[t]) * q;
   }
+  // The same from orientations in the frame that is decomposed, of frames from `begin` on.
+  void set_world(const Skeleton& skeleton, std::size_t begin, const JointRotations& world) {
+    for (int j = 0; j < skeleton.size(); ++j) {
+      const int at = base_.joint(j), parent = skeleton.joints[j].parent;
+      if (at > 0 && parent >= 0) {
+        const QuatTrack track = motion_.rotation(at);
+        const auto part = [&](std::span<double> all) { return all.subspan(begin, world.frames()); };
+        compose_tracks(world[parent], true, world[j],
+                       {part(track.x), part(track.y), part(track.z), part(track.w)});
+        continue;
+      }
+      for (std::size_t t = 0; t < world.frames(); ++t)
+        set_local(j, begin + t, parent < 0 ? world[j][t] : inverse(world[parent][t]) * world[j][t]);
+    }
+  }
   bool translates(int joint) const {
     return base_.joint(joint) > 0 && motion_.translates(base_.joint(joint));
   }
@@ -115,32 +132,64 @@ class Rebuilt {
   std::vector<Quat> rho_;
 };
 
-// One frame's positions, the root at the origin: the chosen joints' as the numbers say, the others' as the
-// base's.
-void positions_at(const ChannelSpace& space, const Rows& channels, std::size_t t, const RootedPose& base,
-                  const std::vector<bool>& known, std::vector<Vec3>& positions) {
+// Positions of frames from `begin` on, as many as `base` has, the root at the origin: the chosen joints' as
+// the numbers say, the others' as the base's.
+void positions_at(const ChannelSpace& space, const Rows& channels, std::size_t begin, const RootedPoses& base,
+                  const std::vector<bool>& known, JointPositions& positions) {
   positions = base.positions;
-  for (std::size_t i = 0; i < space.joints.size(); ++i)
-    positions[space.joints[i]] = vector_at(channels, 3 * i, t);
-  if (!known[0]) return;
+  const std::size_t frames = base.frames();
+  const auto put = [&](std::span<double> to, const double* row, const double* origin) {
+    for (std::size_t t = 0; t < frames; ++t)
+      to[t] = origin ? row[begin + t] - origin[begin + t] : row[begin + t];
+  };
   // The root was taken out: what edits left of it is a shift of everything.
-  const Vec3 root = positions[0];
-  for (int joint : space.joints) positions[joint] -= root;
+  const double* origin[3] = {};
+  for (std::size_t i = 0; known[0] && i < space.joints.size(); ++i)
+    if (space.joints[i] == 0)
+      for (std::size_t c = 0; c < 3; ++c) origin[c] = channels.row(3 * i + c);
+  for (std::size_t i = 0; i < space.joints.size(); ++i) {
+    const Vec3Track track = positions[space.joints[i]];
+    put(track.x, channels.row(3 * i), origin[0]);
+    put(track.y, channels.row(3 * i + 1), origin[1]);
+    put(track.z, channels.row(3 * i + 2), origin[2]);
+  }
 }
 
 // From the root outwards, child = parent + rest length × direction [Shapiro §3.2]. Joints whose parent isn't
 // known, and links without a direction, move with their parent.
-void restore_lengths(const Skeleton& bones, const std::vector<bool>& known, std::vector<Vec3>& positions) {
-  const std::vector<Vec3> before = positions;
+void restore_lengths(const Skeleton& bones, const std::vector<bool>& known, JointPositions& positions) {
+  const JointPositions before = positions;
   for (int j = 1; j < bones.size(); ++j) {
     const int parent = bones.joints[j].parent;
     if (!known[j] || !known[parent]) continue;
-    const Vec3 link = before[j] - before[parent];
-    const double length = norm(link), rest = bones.link_length(j);
-    if (rest < 1e-9)
-      positions[j] = positions[parent];
-    else
-      positions[j] = positions[parent] + (length > 1e-9 ? rest / length * link : link);
+    const double rest = bones.link_length(j);
+    for (std::size_t t = 0; t < positions.frames(); ++t) {
+      const Vec3 link = before[j][t] - before[parent][t], start = positions[parent][t];
+      const double length = norm(link);
+      if (rest < 1e-9)
+        positions[j].set(t, start);
+      else
+        positions[j].set(t, start + (length > 1e-9 ? rest / length * link : link));
+    }
+  }
+}
+
+// Links as the positions have them, where a joint's translation varies; with limbs of the rest's length.
+void set_translations(const Skeleton& skeleton, const std::vector<bool>& known, std::size_t begin,
+                      const JointPositions& positions, const JointRotations& world, bool limbs,
+                      Rebuilt& rebuilt) {
+  for (int j = 1; j < skeleton.size(); ++j) {
+    const int parent = skeleton.joints[j].parent;
+    if (!known[j] || !known[parent] || !rebuilt.translates(j)) continue;
+    const double rest = skeleton.link_length(j);
+    for (std::size_t t = 0; t < world.frames(); ++t) {
+      const Vec3 link = rotate(inverse(world[parent][t]), positions[j][t] - positions[parent][t]);
+      const double length = norm(link);
+      if (!limbs)
+        rebuilt.set_translation(j, begin + t, link);
+      else if (length > 1e-9 && rest > 1e-9)
+        rebuilt.set_translation(j, begin + t, rest / length * link);
+    }
   }
 }
 
@@ -151,26 +200,18 @@ Motion motion_from_positions(const ChannelSpace& space, const Rows& channels, co
   const auto known = flags_of(space);
   const PointsToRotations solve(skeleton, known, turning_joints(space, base));
   if (!way.limbs) rebuilt.give_translations(known);
-  work.parallel(channels.columns, 128, [&](std::size_t begin, std::size_t end) {
-    RootedPose pose;
-    std::vector<Vec3> positions(skeleton.joints.size());
-    std::vector<Quat> world(skeleton.joints.size());
-    for (std::size_t t = begin; t < end; ++t) {
-      if (t % 64 == 0) work.check();
-      rooted_pose(base, t, pose);
-      positions_at(space, channels, t, pose, known, positions);
-      solve.frame(positions, pose.local, pose.world, world);
-      for (int j = 0; j < skeleton.size(); ++j) {
-        const int parent = skeleton.joints[j].parent;
-        rebuilt.set_local(j, t, parent < 0 ? world[j] : inverse(world[parent]) * world[j]);
-        if (parent < 0 || !known[j] || !known[parent] || !rebuilt.translates(j)) continue;
-        const Vec3 link = rotate(inverse(world[parent]), positions[j] - positions[parent]);
-        const double length = norm(link), rest = skeleton.link_length(j);
-        if (!way.limbs)
-          rebuilt.set_translation(j, t, link);
-        else if (length > 1e-9 && rest > 1e-9)
-          rebuilt.set_translation(j, t, rest / length * link);
-      }
+  work.parallel(channels.columns, 4 * frames_at_a_time, [&](std::size_t first, std::size_t last) {
+    RootedPoses poses;
+    JointPositions positions;
+    JointRotations world;
+    for (std::size_t begin = first; begin < last; begin += frames_at_a_time) {
+      work.check();
+      rooted_poses(base, begin, std::min(last, begin + frames_at_a_time), poses);
+      positions_at(space, channels, begin, poses, known, positions);
+      if (world.frames() != poses.frames()) world = JointRotations(skeleton.joints.size(), poses.frames());
+      solve.frames(positions, poses, world);
+      rebuilt.set_world(skeleton, begin, world);
+      set_translations(skeleton, known, begin, positions, world, way.limbs, rebuilt);
     }
   });
   return rebuilt.finish();
@@ -221,20 +262,22 @@ Points points_from_channels(const ChannelSpace& space, const Rows& channels, con
   const Skeleton& bones = base.skeleton();
   double mean_height = 0;
   for (double y : prepared.root().height) mean_height += y / static_cast<double>(channels.columns);
-  RootedPose pose;
-  std::vector<Vec3> positions;
-  for (std::size_t t = 0; t < channels.columns; ++t) {
-    if (t % 64 == 0) work.check();
-    rooted_pose(prepared, t, pose);
-    positions_at(space, channels, t, pose, known, positions);
+  RootedPoses poses;
+  JointPositions positions;
+  for (std::size_t begin = 0; begin < channels.columns; begin += frames_at_a_time) {
+    work.check();
+    rooted_poses(prepared, begin, std::min(channels.columns, begin + frames_at_a_time), poses);
+    positions_at(space, channels, begin, poses, known, positions);
     if (way.limbs) restore_lengths(prepared.skeleton(), known, positions);
-    const Vec3 root =
-        way.root ? bones.above_offset + rotate(bones.above, bones.above_scale * base.local_offset(0, t))
-                 : Vec3{0, mean_height, 0};
-    const Quat facing = space.heading && way.root ? about_y(prepared.root().heading[t]) : Quat{};
-    for (std::size_t i = 0; i < space.joints.size(); ++i)
-      out.track(static_cast<int>(i))
-          .set(t, root + bones.above_scale * rotate(facing, positions[space.joints[i]]));
+    for (std::size_t t = begin; t < begin + poses.frames(); ++t) {
+      const Vec3 root =
+          way.root ? bones.above_offset + rotate(bones.above, bones.above_scale * base.local_offset(0, t))
+                   : Vec3{0, mean_height, 0};
+      const Quat facing = space.heading && way.root ? about_y(prepared.root().heading[t]) : Quat{};
+      for (std::size_t i = 0; i < space.joints.size(); ++i)
+        out.track(static_cast<int>(i))
+            .set(t, root + bones.above_scale * rotate(facing, positions[space.joints[i]][t - begin]));
+    }
   }
   return out;
 }

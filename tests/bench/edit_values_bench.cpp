@@ -26,8 +26,9 @@ std::string clips(bool real) {
   return load("a", "17_10", 1000) + load("b", "17_03", 450);
 }
 
-// One value of the slider: `edits` with ${v} in it, or the node that edits a component for `substitute`.
-void edit_value(benchmark::State& state, const char* edits, bool real) {
+// One value of the slider: it stands for {} in `edits`.
+void edit_value(benchmark::State& state, const char* edits, bool real,
+                const char* representation = "points") {
   if (real && !std::filesystem::exists(mocap("README.md"))) {
     state.SkipWithError("no motion capture");
     return;
@@ -41,12 +42,12 @@ void edit_value(benchmark::State& state, const char* edits, bool real) {
   const auto run = [&] {
     const std::string text = fmt::format(
         R"({{"format": "kinegraph", "schema": 1, "nodes": {{{}
-        "ica": {{"type": "ICA", "params": {{"components": 5}}, "inputs": {{"motions": ["a.motion", "b.motion"]}}}},
+        "ica": {{"type": "ICA", "params": {{"components": 5, "representation": "{}"}}, "inputs": {{"motions": ["a.motion", "b.motion"]}}}},
         "alone": {{"type": "ComponentMotion", "inputs": {{"components": "ica.components"}}}},
         "bent": {{"type": "Filter", "params": {{"method": "gaussian"}}, "inputs": {{"motion": "alone.motion"}}}},
         "it": {{"type": "ComponentEdit", "params": {{"edits": [{}]}},
           "inputs": {{"components": "ica.components", "other": "ica.components", "edited": "bent.motion"}}}}}}}})",
-        clips(real), fmt::format(fmt::runtime(edits), value += 0.001));
+        clips(real), representation, fmt::format(fmt::runtime(edits), value += 0.001));
     const Document document = read_document(text, "bench", registry).document;
     Diagnostics problems;
     const Plan plan = make_plan(document, registry, {.folder = folder, .out = folder}, problems);
@@ -89,13 +90,21 @@ EDIT_VALUE(substitute,
            R"({{"op": "scale", "component": 2, "factor": {}}}, {{"op": "substitute", "component": 1}})");
 EDIT_VALUE(warp, R"({{"op": "warp", "component": 1, "keys": [[100, {}]]}})");
 
-// The one that is substituted, scaled before: then it is shown as a motion anew for every value.
-void edit_before_substitute(benchmark::State& state) {
-  edit_value(state,
-             R"({{"op": "scale", "component": 1, "factor": {}}}, {{"op": "substitute", "component": 1}})",
-             true);
-}
-BENCHMARK(edit_before_substitute)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+// The component that is substituted, changed before: it is shown as a motion anew for every value.
+EDIT_VALUE(scale_and_substitute,
+           R"({{"op": "scale", "component": 1, "factor": {}}}, {{"op": "substitute", "component": 1}})");
+EDIT_VALUE(
+    transfer_and_substitute,
+    R"({{"op": "transfer", "components": [1, 2, 3, 4, 5], "from": 1, "to": 0, "amount": {}}}, {{"op": "substitute", "component": 1}})");
+#define EDIT_VALUE_IN(representation)                                                                     \
+  BENCHMARK_CAPTURE(                                                                                      \
+      edit_value, scale_and_substitute_in_##representation,                                               \
+      R"({{"op": "scale", "component": 1, "factor": {}}}, {{"op": "substitute", "component": 1}})", true, \
+      #representation)                                                                                    \
+      ->Unit(benchmark::kMillisecond)                                                                     \
+      ->UseRealTime()                                                                                     \
+      ->MeasureProcessCPUTime()
+EDIT_VALUE_IN(quaternions);
 
 }  // namespace
 }  // namespace kinegraph

@@ -223,16 +223,38 @@ TEST(ComponentEdit, BendsACurveThroughKeys) {
 TEST(ComponentEdit, SubstitutesAnEditedComponent) {
   Alone work;
   const Components c = small();
-  Points shown =
-      points_of(c, channels_from_signals(c, signals_of(c, c.segments[0]), {0}), c.segments[0], {}, work);
-  EXPECT_EQ(edited(c, {edits::Substitute{{1, ""}}}, 0, {nullptr, nullptr, &shown}).channels.data,
+  const auto shown = std::make_shared<Points>(
+      points_of(c, channels_from_signals(c, signals_of(c, c.segments[0]), {0}), c.segments[0], {}, work));
+  EXPECT_EQ(edited(c, {edits::Substitute{{1, ""}}}, 0, {nullptr, nullptr, shown}).channels.data,
             edited(c, {}).channels.data);
-  const Vec3 before = shown.track(1)[7];
-  shown.track(1).set(7, before + Vec3{0, 0.3, 0});
+  const Vec3 before = shown->track(1)[7];
+  shown->track(1).set(7, before + Vec3{0, 0.3, 0});
   const Rows plain = edited(c, {}).channels,
-             x = edited(c, {edits::Substitute{{1, ""}}}, 0, {nullptr, nullptr, &shown}).channels;
+             x = edited(c, {edits::Substitute{{1, ""}}}, 0, {nullptr, nullptr, shown}).channels;
   EXPECT_NEAR(x(4, 7) - plain(4, 7), 0.3, 1e-12);
   EXPECT_NEAR(x(4, 8) - plain(4, 8), 0, 1e-12);
+}
+
+// Of edited clips as of signals: what is remembered is what new components find.
+TEST(ComponentEdit, SubstitutesTheSameWithAndWithoutAMemory) {
+  for (Representation representation : {Representation::points, Representation::euler}) {
+    Alone work;
+    const Components kept =
+        analysed({shared(gait("walk", 1)), shared(gait("sneak", 1.3))}, representation, 2, work);
+    for (const char* name : {"run", "sneak", "run"}) {
+      const auto clip = shared(gait(name, 1));
+      for (double factor : {1.0, -30.0}) {
+        Components fresh = kept;
+        fresh.memory = std::make_shared<ComponentMemory>();
+        const auto channels = [&](const Components& components) {
+          return edited(components, {edits::Scale{{1, ""}, factor}, edits::Substitute{{1, ""}}}, 0,
+                        {nullptr, clip, nullptr})
+              .channels.data;
+        };
+        EXPECT_EQ(channels(kept), channels(fresh)) << name << " " << factor;
+      }
+    }
+  }
 }
 
 TEST(ComponentEdit, AddsTheResidualOfTheBase) {

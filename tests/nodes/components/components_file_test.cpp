@@ -22,8 +22,7 @@ Components grouped(Representation representation) {
   params.edits = {edits::Merge{"both", {{{1, ""}, 0.5}, {{2, ""}, 1}}}, edits::Substitute{{1, ""}}};
   const Components found =
       analysed({shared(gait("walk", 1)), shared(gait("sneak", 1.3))}, representation, 2, work);
-  const Motion edited = gait("run", 1);
-  return edit_components(found, params, {nullptr, &edited, nullptr}, work).components;
+  return edit_components(found, params, {nullptr, shared(gait("run", 1)), nullptr}, work).components;
 }
 
 TEST(ComponentsFile, ReadsBackEveryBit) {

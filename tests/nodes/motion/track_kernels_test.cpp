@@ -76,6 +76,58 @@ TEST(TrackKernels, TurnDirectionsTheSmallestWay) {
         << t;
 }
 
+TEST(TrackKernels, ComposeAndHangAsTheOperatorsDoToTheBit) {
+  Series a(21), b(22), start(23), product(24), hung(25);
+  for (bool inverse_of_a : {false, true}) {
+    on_every_target([&] {
+      compose_tracks(a.seen_quats(), inverse_of_a, b.seen_quats(), product.quats());
+      return product.numbers();
+    });
+    for (std::size_t t = 0; t < frames; ++t) {
+      const Quat p = a.quats()[t];
+      EXPECT_EQ(product.quats()[t], (inverse_of_a ? inverse(p) : p) * b.quats()[t]) << t;
+    }
+  }
+  on_every_target([&] {
+    hang_tracks(start.seen(), a.seen_quats(), b.seen(), hung.points());
+    return hung.numbers();
+  });
+  for (std::size_t t = 0; t < frames; ++t)
+    EXPECT_EQ(hung.points()[t], start.points()[t] + rotate(a.quats()[t], b.points()[t])) << t;
+}
+
+TEST(TrackKernels, AimLinksUpToTheFrameThatTakesMoreCare) {
+  const Vec3 rest{0.1, -0.4, 0.2};
+  Series base(31), from(32), to(33), out(34);
+  for (std::size_t t = 0; t < frames; ++t) {
+    base.quats().set(t, normalized(base.quats()[t]));
+    // Within 90° of where the base points.
+    const Vec3 now = rotate(base.quats()[t], rest);
+    to.points().set(t, from.points()[t] + now + 0.9 * norm(rest) * normalized(to.points()[t]));
+  }
+  const auto aim = [&](std::size_t begin) {
+    return aim_tracks(base.seen_quats(), rest, norm(rest), from.seen(), to.seen(), out.quats(), begin);
+  };
+  on_every_target([&] {
+    EXPECT_EQ(aim(0), frames);
+    return out.numbers();
+  });
+  for (std::size_t t = 0; t < frames; ++t) {
+    const Quat q = base.quats()[t];
+    const Quat wanted = smallest_turn(rotate(q, rest), to.points()[t] - from.points()[t]) * q;
+    EXPECT_LT(turn(out.quats()[t], wanted), 1e-7) << t;
+    EXPECT_NEAR(dot(out.quats()[t], out.quats()[t]), 1, 1e-14) << t;
+  }
+  from.points().set(50, to.points()[50]);                                      // no direction
+  to.points().set(101, from.points()[101] - rotate(base.quats()[101], rest));  // the opposite one
+  on_every_target([&] {
+    EXPECT_EQ(aim(0), 50u);
+    EXPECT_EQ(aim(51), 101u);
+    EXPECT_EQ(aim(102), frames);
+    return out.numbers();
+  });
+}
+
 TEST(TrackKernels, FindTheNextStepOfARotation) {
   Series track(9);
   for (std::size_t t = 0; t < frames; ++t)
