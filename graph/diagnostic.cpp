@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace kinegraph {
 
@@ -138,14 +139,15 @@ std::string nearest(std::string_view name, const std::vector<std::string>& candi
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& all) {
   if (const std::string near = nearest(name, all); !near.empty()) return "did you mean \"" + near + "\"?";
-  std::vector<std::string> candidates;  // each once, in the order given
+  if (all.empty()) return "there is none";
+  std::vector<std::string_view> candidates;  // each once, in the order given
+  std::set<std::string_view> seen;
   for (const auto& one : all)
-    if (std::find(candidates.begin(), candidates.end(), one) == candidates.end()) candidates.push_back(one);
-  if (candidates.empty()) return "there is none";
+    if (seen.insert(one).second) candidates.push_back(one);
   constexpr std::size_t shown = 12;
   std::string text = "there is ";
   for (std::size_t i = 0; i < std::min(candidates.size(), shown); ++i)
-    text += (i ? ", " : "") + candidates[i];
+    (text += i ? ", " : "") += candidates[i];
   if (candidates.size() > shown) text += " and " + std::to_string(candidates.size() - shown) + " more";
   return text;
 }

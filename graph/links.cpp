@@ -21,40 +21,27 @@ bool passes_on(const NodeType& type) {
   return type.role == Role::select || type.role == Role::pass;
 }
 
-std::optional<std::string> type_through(const Document& document, const Registry& registry, const Link& link,
-                                        std::set<std::string>& visited) {
-  const Node* node = find_node(document, link.node);
-  if (!node || node->missing) return {};
-  const NodeType* type = known_type(registry, *node);
-  const OutputPort* output = type ? type->find_output(link.port) : nullptr;
-  if (!output) return {};
-  if (!output->type.empty()) return output->type;
-  if (!visited.insert(link.node).second) return {};
-  for (const auto& [port, inputs] : node->inputs)
-    for (const Link& from : inputs.links)
-      if (auto found = type_through(document, registry, from, visited)) return found;
-  return {};
-}
-
 // The first port behind `node`, which passes on what it gets, that doesn't take `type`.
 std::optional<Diagnostic> objection_behind(const Document& document, const Registry& registry,
-                                           const std::string& node, const std::string& type,
-                                           std::set<std::string>& visited) {
-  if (!visited.insert(node).second) return {};
-  for (const auto& [name, consumer] : document.nodes) {
-    const NodeType* consumer_type = known_type(registry, consumer);
-    if (!consumer_type) continue;
-    for (const auto& [port, inputs] : consumer.inputs) {
-      const bool linked = std::any_of(inputs.links.begin(), inputs.links.end(),
-                                      [&](const Link& link) { return link.node == node; });
-      const InputPort* input = linked ? consumer_type->find_input(port) : nullptr;
+                                           const std::string& node, const std::string& type) {
+  std::map<std::string_view, std::vector<std::pair<const std::string*, const std::string*>>> consumers;
+  for (const auto& [name, consumer] : document.nodes)
+    for (const auto& [port, inputs] : consumer.inputs)
+      for (const Link& link : inputs.links) consumers[link.node].emplace_back(&name, &port);
+  std::set<std::string_view> visited{node};
+  std::vector<std::string_view> next{node};
+  while (!next.empty()) {
+    const std::string_view at = next.back();
+    next.pop_back();
+    for (const auto& [name, port] : consumers[at]) {
+      const NodeType* consumer = known_type(registry, document.nodes.at(*name));
+      const InputPort* input = consumer ? consumer->find_input(*port) : nullptr;
       if (!input) continue;
       if (registry.arrives_as(type, *input).empty())
-        return error("type-mismatch", fmt::format("{} goes on to {}.{}, which takes {}", type, name, port,
+        return error("type-mismatch", fmt::format("{} goes on to {}.{}, which takes {}", type, *name, *port,
                                                   fmt::join(input->types, " or ")))
-            .at_node(node);
-      if (!passes_on(*consumer_type)) continue;
-      if (auto objection = objection_behind(document, registry, name, type, visited)) return objection;
+            .at_node(std::string(at));
+      if (passes_on(*consumer) && visited.insert(*name).second) next.push_back(*name);
     }
   }
   return {};
@@ -62,10 +49,50 @@ std::optional<Diagnostic> objection_behind(const Document& document, const Regis
 
 }  // namespace
 
+std::optional<std::string> OutputTypes::of(const Link& link) {
+  // What flows on is what the first of the links gives that gives anything: depth first, with an own stack,
+  // so that a chain of any length is no matter.
+  struct Step {
+    std::string_view node;
+    std::vector<const Link*> sources;
+    std::size_t next = 0;
+  };
+  std::vector<Step> way;
+  std::optional<std::string> found;
+  const auto step_into = [&](const Link& at) {
+    found.reset();
+    const Node* node = find_node(document_, at.node);
+    const NodeType* type = node && !node->missing ? known_type(registry_, *node) : nullptr;
+    const OutputPort* output = type ? type->find_output(at.port) : nullptr;
+    if (!output) return;
+    if (!output->type.empty()) {
+      found = output->type;
+      return;
+    }
+    const auto [known, fresh] = passed_.try_emplace(at.node);
+    found = known->second;  // nothing yet where it is further back on the way: a cycle
+    if (!fresh) return;
+    Step step{known->first, {}, 0};
+    for (const auto& [port, inputs] : node->inputs)
+      for (const Link& from : inputs.links) step.sources.push_back(&from);
+    way.push_back(std::move(step));
+  };
+  step_into(link);
+  while (!way.empty()) {
+    Step& step = way.back();
+    if (!found && step.next < step.sources.size()) {
+      step_into(*step.sources[step.next++]);
+      continue;
+    }
+    passed_.find(step.node)->second = found;
+    way.pop_back();
+  }
+  return found;
+}
+
 std::optional<std::string> type_of_output(const Document& document, const Registry& registry,
                                           const Link& link) {
-  std::set<std::string> visited;
-  return type_through(document, registry, link, visited);
+  return OutputTypes(document, registry).of(link);
 }
 
 bool depends_on(const Document& document, const std::string& node, const std::string& on) {
@@ -91,8 +118,7 @@ std::optional<Diagnostic> objection_to_link(const Document& document, const Regi
     for (const auto& [name, other] : document.nodes) all.push_back(name);
     return all;
   };
-  const auto type_at =
-      [&](const std::string& name) -> std::pair<const NodeType*, std::optional<Diagnostic>> {
+  const auto type_at = [&](const std::string& name) -> std::pair<const NodeType*, std::optional<Diagnostic>> {
     const Node* found = find_node(document, name);
     if (!found)
       return {nullptr, error("unknown-node", fmt::format("there is no node \"{}\"", name))
@@ -123,7 +149,8 @@ std::optional<Diagnostic> objection_to_link(const Document& document, const Regi
     return error("cycle", fmt::format("{} already depends on {}", from.node, node))
         .at_node(node)
         .at_port(port);
-  const auto type = type_of_output(document, registry, from);
+  OutputTypes types(document, registry);
+  const auto type = types.of(from);
   if (!type) return {};
   if (registry.arrives_as(*type, *input).empty())
     return error("type-mismatch", fmt::format("{} gives {}, and {}.{} takes {}", to_text(from), *type, node,
@@ -135,14 +162,13 @@ std::optional<Diagnostic> objection_to_link(const Document& document, const Regi
     if (const auto found = document.nodes.at(node).inputs.find(port);
         found != document.nodes.at(node).inputs.end())
       for (const Link& other : found->second.links)
-        if (const auto there = type_of_output(document, registry, other); there && *there != *type)
+        if (const auto there = types.of(other); there && *there != *type)
           return error("type-mismatch",
                        fmt::format("{} gives {}, and {} gives {}: a {} takes links of one type",
                                    to_text(from), *type, to_text(other), *there, taker->name))
               .at_node(node)
               .at_port(port);
-  std::set<std::string> visited;
-  return objection_behind(document, registry, node, *type, visited);
+  return objection_behind(document, registry, node, *type);
 }
 
 std::vector<std::vector<std::string>> cycles(const Document& document) {

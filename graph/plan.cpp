@@ -302,8 +302,9 @@ class Planner {
       PlannedNode& planned = plan_.nodes[static_cast<std::size_t>(index->second)];
       std::set<std::string> ports;
       for (const auto& [port, inputs] : node.inputs) ports.insert(port);
-      for (const auto& [spot, published] : scope.published_inputs)
-        if (spot.first == name) ports.insert(spot.second);
+      for (auto spot = scope.published_inputs.lower_bound({name, ""});
+           spot != scope.published_inputs.end() && spot->first.first == name; ++spot)
+        ports.insert(spot->first.second);
       for (const std::string& port : ports) {
         const Linked linked = links_of(scope, name, port);
         for (const Link& link : linked.links)
@@ -325,40 +326,57 @@ class Planner {
     return "";
   }
 
-  // What a link stands for: an output with a key, a constant, or nothing.
+  // A link, and in whose names; without a link: there is none.
+  struct Way {
+    const Scope* scope = nullptr;
+    std::optional<Link> link;
+  };
+
+  // What a link stands for: an output with a key, a constant, or nothing. Only nodes without a key lead on to
+  // others, each to one, however long the way is.
   std::optional<Source> source_of(const Scope& scope, const Link& link) {
-    const std::string key = scope.prefix + to_text(link);
-    if (const auto known = sources_.find(key); known != sources_.end()) return known->second;
-    // Only nodes without a key lead on to others; validate() has refused cycles, this keeps one from hanging
-    // the rest.
-    if (!open_.insert(key).second) return {};
-    auto source = found_source(scope, link);
-    open_.erase(key);
-    sources_[key] = source;
+    std::vector<std::string> passed;  // on the way
+    std::set<std::string> seen;
+    std::optional<Source> source;
+    for (Way way{&scope, link}; way.link;) {
+      std::string key = way.scope->prefix + to_text(*way.link);
+      if (const auto known = sources_.find(key); known != sources_.end()) {
+        source = known->second;
+        break;
+      }
+      // validate() has refused cycles; this keeps one from hanging the rest.
+      if (!seen.insert(key).second) break;
+      passed.push_back(std::move(key));
+      way = follow(*way.scope, *way.link, source);
+    }
+    for (const std::string& key : passed) sources_[key] = source;
     return source;
   }
 
-  std::optional<Source> found_source(const Scope& scope, const Link& link) {
+  // Where the way goes on. It ends with what `source` then is, or, without, with nothing.
+  Way follow(const Scope& scope, const Link& link, std::optional<Source>& source) {
     const auto found = scope.document.nodes.find(link.node);
     if (found == scope.document.nodes.end()) return {};
     const Node& node = found->second;
     const std::string full = scope.prefix + link.node;
-    if (!node.enabled) return source_past(scope, link);
+    if (!node.enabled) return follow_past(scope, link, source);
     const NodeType* type = known_type(registry_, node);
-    if (!type || type->role == Role::compute || is_unopened(*type, node))
-      return Source{plan_.by_name.at(full), link.port, nullptr, ""};
-    if (type->role == Role::select) return chosen_source(scope, node, link);
-    if (type->role == Role::pass) return source_past(scope, link);
+    if (!type || type->role == Role::compute || is_unopened(*type, node)) {
+      source = Source{plan_.by_name.at(full), link.port, nullptr, ""};
+      return {};
+    }
+    if (type->role == Role::select) return follow_chosen(scope, node, link);
+    if (type->role == Role::pass) return follow_past(scope, link, source);
     const auto inner = inner_.find(full);
     if (inner == inner_.end()) return {};
     const auto& outputs = inner->second->document.publish.outputs;
     const auto published = outputs.find(link.port);
     if (published == outputs.end() || published->second.empty()) return {};
-    return source_of(*inner->second, published->second.front());
+    return {inner->second, published->second.front()};
   }
 
   // Of a disabled node or a Dot: what the registry says the output passes on.
-  std::optional<Source> source_past(const Scope& scope, const Link& link) {
+  Way follow_past(const Scope& scope, const Link& link, std::optional<Source>& source) {
     const NodeType* type = known_type(registry_, scope.document.nodes.at(link.node));
     const OutputPort* output = type ? type->find_output(link.port) : nullptr;
     if (!output) return {};
@@ -366,15 +384,16 @@ class Planner {
       const std::string id = type->name + "." + output->name;
       ValuePtr& value = constants_[id];
       if (!value) value = output->constant();
-      return Source{-1, output->name, value, id};
+      source = Source{-1, output->name, value, id};
+      return {};
     }
     if (output->passes.empty()) return {};
     const Linked linked = links_of(scope, link.node, output->passes);
     if (linked.links.empty()) return {};
-    return source_of(*linked.scope, linked.links.front());
+    return {linked.scope, linked.links.front()};
   }
 
-  std::optional<Source> chosen_source(const Scope& scope, const Node& node, const Link& link) {
+  Way follow_chosen(const Scope& scope, const Node& node, const Link& link) {
     const std::string full = scope.prefix + link.node;
     const NodeType* type = registry_.find(node.type);
     const auto chosen = chosen_.find(full);
@@ -391,7 +410,7 @@ class Planner {
       }
       return {};
     }
-    return source_of(*linked.scope, linked.links[static_cast<std::size_t>(chosen->second)]);
+    return {linked.scope, linked.links[static_cast<std::size_t>(chosen->second)]};
   }
 
   const Registry& registry_;
@@ -405,7 +424,7 @@ class Planner {
   std::map<std::string, double> chosen_;                      // of a Switch, by full name: its index
   std::map<std::string, std::optional<Source>> sources_;      // by full "node.port"
   std::map<std::string, ValuePtr> constants_;
-  std::set<std::string> open_, complained_;
+  std::set<std::string> complained_;
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <tuple>
 
 #include "graph/links.h"
 #include "graph/nested.h"
@@ -18,12 +20,18 @@ using Kind = ParamType::Kind;
 class Validator {
  public:
   Validator(const Document& document, const Registry& registry, const ValidateOptions& options)
-      : document_(document), registry_(registry), options_(options) {
+      : document_(document), registry_(registry), options_(options), types_(document, registry) {
     variables_.given = options.variables;
     variables_.files = options.outer_variables;
     variables_.files.push_back(&document.variables);
     variables_.batch_fills_in = true;
     for (const auto& [name, node] : document.nodes) names_.push_back(name);
+    const auto add_targets = [](const auto& published, auto& targets) {
+      for (const auto& [name, links] : published)
+        for (const Link& link : links) targets.insert({link.node, link.port});
+    };
+    add_targets(document.publish.inputs, published_inputs_);
+    add_targets(document.publish.params, published_params_);
   }
 
   Diagnostics validate() {
@@ -43,9 +51,7 @@ class Validator {
     check_cycles();
     check_publish();
     check_shared_files();
-    std::stable_sort(problems_.begin(), problems_.end(), [](const Diagnostic& a, const Diagnostic& b) {
-      return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-    });
+    std::stable_sort(problems_.begin(), problems_.end(), stands_before);
     return std::move(problems_);
   }
 
@@ -53,6 +59,12 @@ class Validator {
   void add(Diagnostic diagnostic, Place place, const std::string& node = {}) {
     diagnostic.node = node;
     problems_.push_back(std::move(diagnostic).in_file(options_.file, place));
+  }
+
+  // Of the first unknown names; comparing thousands with thousands would take minutes.
+  std::string node_meant(const std::string& name) {
+    constexpr int most_suggested = 200;
+    return suggested_++ < most_suggested ? suggestion(name, names_) : "";
   }
 
   // A stored parameter, or its default, with variables replaced; nothing where that failed.
@@ -305,7 +317,7 @@ class Validator {
         if (!document_.nodes.contains(link.node))
           add(warning("unknown-node", fmt::format("there is no node \"{}\"", link.node))
                   .at_port(port)
-                  .hinting(suggestion(link.node, names_)),
+                  .hinting(node_meant(link.node)),
               link.place, name);
   }
 
@@ -314,7 +326,7 @@ class Validator {
     if (from == document_.nodes.end())
       return add(error("unknown-node", fmt::format("there is no node \"{}\"", link.node))
                      .at_port(port.name)
-                     .hinting(suggestion(link.node, names_)),
+                     .hinting(node_meant(link.node)),
                  link.place, name);
     const NodeType* type = known_type(registry_, from->second);
     if (!type) return;
@@ -323,7 +335,7 @@ class Validator {
                      .at_port(port.name)
                      .hinting(suggestion(link.port, type->output_names())),
                  link.place, name);
-    const auto arriving = type_of_output(document_, registry_, link);
+    const auto arriving = types_.of(link);
     if (arriving && registry_.arrives_as(*arriving, port).empty())
       add(error("type-mismatch", fmt::format("{} gives {}, and {} takes {}", to_text(link), *arriving,
                                              port.name, fmt::join(port.types, " or ")))
@@ -339,17 +351,11 @@ class Validator {
     return fmt::format("link {}", fmt::join(port.types, " or "));
   }
 
-  static bool is_published(const std::map<std::string, std::vector<Link>, std::less<>>& published,
-                           const Link& part) {
-    return std::any_of(published.begin(), published.end(), [&](const auto& entry) {
-      return std::find(entry.second.begin(), entry.second.end(), part) != entry.second.end();
-    });
+  bool is_published_input(std::string_view node, std::string_view port) const {
+    return published_inputs_.contains({node, port});
   }
-  bool is_published_input(const std::string& node, const std::string& port) const {
-    return is_published(document_.publish.inputs, {node, port, {}});
-  }
-  bool is_published_param(const std::string& node, const std::string& param) const {
-    return is_published(document_.publish.params, {node, param, {}});
+  bool is_published_param(std::string_view node, std::string_view param) const {
+    return published_params_.contains({node, param});
   }
 
   // A Switch: its index, and that its links are of one type.
@@ -357,11 +363,13 @@ class Validator {
     const InputPort& port = type.inputs.front();
     const auto inputs = node.inputs.find(port.name);
     const std::size_t count = inputs == node.inputs.end() ? 0 : inputs->second.links.size();
+    const bool misspelled = inputs != node.inputs.end() && count == 0;  // reading has spoken of it
     const Param* param = type.find_param("index");
     Diagnostics ignored;
     const auto index = param ? value_of(node, *param, ignored) : std::nullopt;
     const auto stored = node.params.find("index");
-    if (node.enabled && index && index->is_number() && !(index->number() < static_cast<double>(count)))
+    if (node.enabled && !misspelled && index && index->is_number() &&
+        !(index->number() < static_cast<double>(count)))
       add(error("index-out-of-range",
                 fmt::format("index {} of {} links", shortest_number(index->number()), count))
               .at_param("index")
@@ -370,7 +378,7 @@ class Validator {
     std::optional<std::string> first;
     for (std::size_t i = 0; i < count; ++i) {
       const Link& link = inputs->second.links[i];
-      const auto there = type_of_output(document_, registry_, link);
+      const auto there = types_.of(link);
       if (there && first && *there != *first)
         add(error("type-mismatch",
                   fmt::format("{} gives {}, the link before it {}", to_text(link), *there, *first))
@@ -379,6 +387,14 @@ class Validator {
             link.place, name);
       if (there && !first) first = there;
     }
+  }
+
+  static std::string shown_way(const std::vector<std::string>& nodes) {
+    constexpr std::size_t most_shown = 12;
+    if (nodes.size() <= most_shown) return fmt::format("{}", fmt::join(nodes, " → "));
+    return fmt::format("{} → … ({} more) → {}",
+                       fmt::join(nodes.begin(), nodes.begin() + most_shown - 1, " → "),
+                       nodes.size() - most_shown, nodes.back());
   }
 
   void check_cycles() {
@@ -393,8 +409,8 @@ class Validator {
             place = link.place;
             port = key;
           }
-      add(error("cycle", fmt::format("{} → {} depend on each other in a circle", fmt::join(cycle, " → "),
-                                     cycle.front()))
+      add(error("cycle",
+                fmt::format("{} → {} depend on each other in a circle", shown_way(cycle), cycle.front()))
               .at_port(port)
               .hinting("remove one of these links"),
           place, cycle.front());
@@ -406,7 +422,7 @@ class Validator {
     if (node == document_.nodes.end()) {
       add(error("unknown-node", fmt::format("there is no node \"{}\"", target.node))
               .at_param(where)
-              .hinting(suggestion(target.node, names_)),
+              .hinting(node_meant(target.node)),
           target.place);
       return nullptr;
     }
@@ -514,7 +530,10 @@ class Validator {
   const Registry& registry_;
   const ValidateOptions& options_;
   Variables variables_;
+  OutputTypes types_;
   std::vector<std::string> names_;
+  int suggested_ = 0;
+  std::set<std::pair<std::string_view, std::string_view>> published_inputs_, published_params_;
   Diagnostics problems_;
 };
 
@@ -524,21 +543,35 @@ Diagnostics validate(const Document& document, const Registry& registry, const V
   return Validator(document, registry, options).validate();
 }
 
-Diagnostics all_problems(const Document& document, Diagnostics found_by_reading, bool in_doubt,
+namespace {
+// The graphs inside a document's Graph nodes, for the same nodes of another.
+Document as_opened(Document document, const Document& other) {
+  for (auto& [name, node] : document.nodes)
+    if (const auto same = other.nodes.find(name); same != other.nodes.end())
+      node.nested = same->second.nested;
+  return document;
+}
+}  // namespace
+
+Diagnostics all_problems(const Document& document, Diagnostics found_by_reading, const Doubt& doubt,
                          const Registry& registry, const ValidateOptions& options) {
   Diagnostics all = std::move(found_by_reading);
   if (document.read_only || (has_error(all) && document.nodes.empty())) return all;
-  for (Diagnostic& problem : validate(document, registry, options)) {
-    const bool told = std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
-      return other.code == problem.code && other.place.line == problem.place.line &&
-             other.place.column == problem.place.column && other.message == problem.message;
-    });
-    if (!told) all.push_back(std::move(problem));
+  Diagnostics found = validate(document, registry, options);
+  if (doubt.other_side || doubt.torn_at > 0) {
+    const Diagnostics of_other = doubt.other_side
+                                     ? validate(as_opened(*doubt.other_side, document), registry, options)
+                                     : Diagnostics();
+    drop_other_side(found, of_other, doubt);
   }
-  drop_consequences(all, in_doubt);
-  std::stable_sort(all.begin(), all.end(), [](const Diagnostic& a, const Diagnostic& b) {
-    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-  });
+  std::set<std::tuple<int, int, std::string, std::string>> told;
+  for (const Diagnostic& problem : all)
+    told.insert({problem.place.line, problem.place.column, problem.code, problem.message});
+  for (Diagnostic& problem : found)
+    if (!told.contains({problem.place.line, problem.place.column, problem.code, problem.message}))
+      all.push_back(std::move(problem));
+  drop_consequences(all, doubt);
+  std::stable_sort(all.begin(), all.end(), stands_before);
   return all;
 }
 
@@ -546,7 +579,7 @@ ReadResult read_and_validate(std::string_view text, const Registry& registry,
                              const ValidateOptions& options) {
   ReadResult result = read_document(text, options.file, registry);
   result.problems =
-      all_problems(result.document, std::move(result.problems), result.in_doubt, registry, options);
+      all_problems(result.document, std::move(result.problems), result.doubt, registry, options);
   return result;
 }
 

@@ -34,8 +34,7 @@ Diagnostics validate(const Document& document, const Registry& registry, const V
 
 // What reading found and what validate() finds, each once, without what only follows from something else, in
 // file order.
-// `in_doubt` as ReadResult's.
-Diagnostics all_problems(const Document& document, Diagnostics found_by_reading, bool in_doubt,
+Diagnostics all_problems(const Document& document, Diagnostics found_by_reading, const Doubt& doubt,
                          const Registry& registry, const ValidateOptions& options);
 // Reads and validates: all problems of a file at once, in file order.
 ReadResult read_and_validate(std::string_view text, const Registry& registry, const ValidateOptions& options);

@@ -14,27 +14,27 @@ std::atomic<StopToken*> listening{nullptr};
 std::atomic<int> received{0};
 
 extern "C" void on_signal(int number) {
-  if (received.exchange(number) != 0) _exit(128 + number);
-  if (StopToken* token = listening.load()) token->stop();
+  StopToken* token = listening.load();
+  if (received.exchange(number) != 0 || !token) _exit(128 + number);
+  token->stop();
 }
 
-void install(void (*handler)(int)) {
+}  // namespace
+
+void end_on_signals() {
   struct sigaction action {};
-  action.sa_handler = handler;
+  action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }
 
-}  // namespace
-
 Interruption::Interruption() {
   listening.store(&token_);
-  install(on_signal);
+  end_on_signals();
 }
 
 Interruption::~Interruption() {
-  install(SIG_DFL);
   listening.store(nullptr);
 }
 

@@ -5,6 +5,9 @@
 
 namespace kinegraph {
 
+// From now on a signal ends the program at once with 130 or 143, while no Interruption lives.
+void end_on_signals();
+
 // While it lives the signals go to its token. At most one at a time.
 class Interruption {
  public:

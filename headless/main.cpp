@@ -4,12 +4,14 @@
 #include "headless/commands.h"
 #include "headless/cpu_choice.h"
 #include "headless/exit_code.h"
+#include "headless/interruption.h"
 #include "nodes/all_nodes.h"
 
 using namespace kinegraph;
 
 int main(int argc, char** argv) {
   Terminal terminal;
+  end_on_signals();
   try {
     choose_cpu_from_environment();
     Registry registry = all_nodes();

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 
+#include "graph/file/parse_json.h"
 #include "graph/file/read.h"
 #include "graph/nested.h"
 #include "headless/session.h"
@@ -78,12 +79,12 @@ Opened open_graph(const std::string& argument, const Registry& registry, bool mi
   opened.document = std::move(read.document);
   opened.problems = std::move(read.problems);
   opened.migrated = read.migrated;
-  opened.in_doubt = read.in_doubt;
+  opened.doubt = std::move(read.doubt);
   return opened;
 }
 
 Diagnostics all_problems(const Opened& opened, const Registry& registry, const ValidateOptions& options) {
-  return all_problems(opened.document, opened.problems, opened.in_doubt, registry, options);
+  return all_problems(opened.document, opened.problems, opened.doubt, registry, options);
 }
 
 void open_graphs_inside(Opened& opened, const Registry& registry,

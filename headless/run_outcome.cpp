@@ -25,9 +25,9 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
                    const std::function<std::vector<Target>(Session&)>& targets,
                    const std::function<int(Session&, const Outcome&)>& after) {
   using exit_code::graver;
-  Interruption interruption;
   Progress progress(form_of(arguments, program.terminal), program.terminal);
   Session session(program, arguments, std::move(opened));
+  Interruption interruption;  // what came before leaves nothing behind, and ends at once
   Outcome outcome;
   std::string page;
   outcome.problems = session.problems();

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <thread>
 
 #include "graph/nested.h"
@@ -172,17 +172,24 @@ std::vector<Target> Session::usual_targets() const {
 Session::Need Session::needed_by(const std::vector<Target>& targets) const {
   Need need;
   need.nodes.assign(plan_.nodes.size(), false);
-  std::function<void(const Source&)> follow = [&](const Source& source) {
-    if (source.node < 0) return;
-    const auto& node = plan_.nodes[static_cast<std::size_t>(source.node)];
-    if (node.type && !source.port.empty()) {
-      const OutputPort* port = node.type->find_output(source.port);
-      if (port && port->type == "Metrics") need.metrics.push_back({node.name, source.port});
+  std::vector<Source> next;
+  const auto follow = [&](const Source& source) {
+    next.push_back(source);
+    while (!next.empty()) {
+      const Source at = std::move(next.back());
+      next.pop_back();
+      if (at.node < 0) continue;
+      const auto& node = plan_.nodes[static_cast<std::size_t>(at.node)];
+      if (node.type && !at.port.empty()) {
+        const OutputPort* port = node.type->find_output(at.port);
+        if (port && port->type == "Metrics") need.metrics.push_back({node.name, at.port});
+      }
+      if (need.nodes[static_cast<std::size_t>(at.node)]) continue;
+      need.nodes[static_cast<std::size_t>(at.node)] = true;
+      const auto before = static_cast<std::ptrdiff_t>(next.size());
+      for (const auto& [port, sources] : node.inputs) next.insert(next.end(), sources.begin(), sources.end());
+      std::reverse(next.begin() + before, next.end());
     }
-    if (need.nodes[static_cast<std::size_t>(source.node)]) return;
-    need.nodes[static_cast<std::size_t>(source.node)] = true;
-    for (const auto& [port, sources] : node.inputs)
-      for (const auto& input : sources) follow(input);
   };
   for (const auto& target : targets) {
     if (auto found = plan_.by_name.find(target.node); found != plan_.by_name.end() && target.port.empty()) {

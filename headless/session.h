@@ -53,7 +53,7 @@ struct Opened {
   std::string folder;  // absolute
   Diagnostics problems;
   bool migrated = false;
-  bool in_doubt = false;  // as ReadResult's
+  Doubt doubt;  // as ReadResult's
 };
 // Reads a graph file; a file that is missing or unreadable is a problem like any other.
 Opened open_graph(const std::string& argument, const Registry& registry, bool migrate = true);

@@ -7,10 +7,11 @@
 #include <limits>
 #include <set>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "graph/file/bracket_rescue.h"
+#include "graph/file/conflict_sides.h"
+#include "graph/file/doubt.h"
 #include "graph/file/json_mistake.h"
 #include "graph/file/text_bytes.h"
 
@@ -297,22 +298,7 @@ class Parser {
       if (!unit(i, low) || low < 0xDC00 || low >= 0xE000) return false;
       code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
     }
-    const auto put = [&](unsigned byte) { out += static_cast<char>(byte); };
-    if (code < 0x80) {
-      put(code);
-    } else if (code < 0x800) {
-      put(0xC0 | code >> 6);
-      put(0x80 | (code & 63));
-    } else if (code < 0x10000) {
-      put(0xE0 | code >> 12);
-      put(0x80 | (code >> 6 & 63));
-      put(0x80 | (code & 63));
-    } else {
-      put(0xF0 | code >> 18);
-      put(0x80 | (code >> 12 & 63));
-      put(0x80 | (code >> 6 & 63));
-      put(0x80 | (code & 63));
-    }
+    append_utf8(out, code);
     return true;
   }
   bool unit(std::size_t& i, unsigned& code) const {  // \uXXXX
@@ -497,17 +483,17 @@ Json parse(std::string_view text, bool past, Diagnostics& found, bool& in_doubt,
     if (!past) return {};
     text.remove_prefix(3);
   }
-  find_conflict_markers(text, found);
-  if (!found.empty() && found.back().code == "conflict-markers") return {};
-  std::string valid;
-  if (first_bad_utf8(text) != std::string_view::npos) {
-    valid = as_utf8(text, found);
-    const bool is_text = text.find('\0') == std::string_view::npos;
-    if (!past || !is_text) {
-      found.resize(1);
-      return {};
-    }
-    text = valid;
+  if (auto conflicts = conflict_sides(text)) {
+    found = std::move(conflicts->problems);
+    return {};
+  }
+  std::string cleaned;
+  if (past && !is_plain(text)) {
+    cleaned = as_text(text, found);
+    text = cleaned;
+  } else if (const std::size_t bad = past ? text.npos : first_bad_utf8(text); bad != text.npos) {
+    tell(not_utf8(text[bad]), place_of(text, bad));
+    return {};
   }
 
   Reading first = read_with({}, text, past, largest_json, work);
@@ -527,9 +513,7 @@ Json parse(std::string_view text, const std::string& file, bool past, Diagnostic
            Work* work = nullptr) {
   Diagnostics found;
   Json json = parse(text, past, found, in_doubt, work);
-  std::stable_sort(found.begin(), found.end(), [](const Diagnostic& a, const Diagnostic& b) {
-    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-  });
+  std::stable_sort(found.begin(), found.end(), stands_before);
   found.erase(std::unique(found.begin(), found.end(),
                           [](const Diagnostic& a, const Diagnostic& b) {
                             return is_same(a.place, b.place) && a.code == b.code;
@@ -553,34 +537,6 @@ ReadPast parse_json_past_mistakes(std::string_view text, const std::string& file
   ReadPast read;
   read.json = parse(text, file, true, problems, read.in_doubt);
   return read;
-}
-
-void drop_consequences(Diagnostics& problems, bool in_doubt) {
-  // Of what is there, whatever may be missing or stand elsewhere.
-  const std::set<std::string_view> certain = {
-      "syntax",        "bad-number",         "not-finite",      "trailing-comma",
-      "comment",       "bad-utf8",           "byte-order-mark", "not-a-graph",
-      "bad-version",   "newer-schema",       "unknown-type",    "newer-version",
-      "unknown-param", "unknown-port",       "out-of-range",    "bad-range",
-      "bad-choice",    "bad-value",          "wrong-length",    "bad-link",
-      "needs-list",    "one-link",           "type-mismatch",   "not-an-integer",
-      "missing-file",  "not-a-regular-file", "bad-path",        "leads-outside",
-      "absolute-path", "backslash-path"};
-  if (in_doubt)
-    std::erase_if(problems, [&](const Diagnostic& problem) { return !certain.contains(problem.code); });
-  const std::set<std::string_view> of_values = {"syntax", "bad-number", "not-finite"},
-                                   of_keys = {"unknown-key", "unknown-param", "unknown-port", "bad-name",
-                                              "duplicate-key"};
-  std::set<std::tuple<std::string, int, int>> unread;
-  const auto at = [](const Diagnostic& problem) {
-    return std::tuple(problem.file, problem.place.line, problem.place.column);
-  };
-  std::erase_if(problems, [&](const Diagnostic& problem) {
-    const bool of_value = of_values.contains(problem.code) && problem.node.empty();
-    if (of_value) return !unread.insert(at(problem)).second;
-    if (problem.code == "not-finite") return !unread.empty();  // by way of a variable
-    return unread.contains(at(problem)) && !of_keys.contains(problem.code);
-  });
 }
 
 }  // namespace kinegraph

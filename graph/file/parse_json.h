@@ -34,8 +34,5 @@ struct ReadPast {
 // gives as evidence (bracket_rescue.h), and past what can't be read at all. A value that isn't known is the
 // number NaN, spelled as it stood.
 ReadPast parse_json_past_mistakes(std::string_view text, const std::string& file, Diagnostics& problems);
-// Where a value couldn't be read, takes out what was said of its meaning: one mistake, one message. Of a text
-// `in_doubt`, leaves only what is certain.
-void drop_consequences(Diagnostics& problems, bool in_doubt = false);
 
 }  // namespace kinegraph

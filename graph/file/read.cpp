@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/file/conflict_sides.h"
 #include "graph/file/migrate.h"
+#include "graph/file/parse_json.h"
+#include "graph/file/text_bytes.h"
 #include "graph/missing.h"
 #include "graph/shortened.h"
 
@@ -42,8 +45,12 @@ class Reader {
           {1, 1});
       return std::move(result_);
     }
+    if (!is_text(text_)) {
+      add(error("not-a-graph", "the file isn't text").hinting("is it a graph file?"), {1, 1});
+      return std::move(result_);
+    }
     ReadPast parsed = parse_json_past_mistakes(text_, file_, result_.problems);
-    result_.in_doubt = parsed.in_doubt;
+    result_.doubt.anywhere = parsed.in_doubt;
     Json& top = parsed.json;
     if (top.is_null() && has_error(result_.problems)) return std::move(result_);
     if (!top.is_object()) {
@@ -445,12 +452,32 @@ class Reader {
   ReadResult result_;
 };
 
+// Each side of git's conflicts, the problems of the first and those that stand outside the conflicts, with
+// which the second hasn't to do either.
+ReadResult read_sides(ConflictSides sides, const std::string& file, const Registry& registry, bool migrate) {
+  ReadResult result = Reader(sides.first, file, registry, migrate).read();
+  ReadResult other = Reader(sides.second, file, registry, migrate).read();
+  result.doubt.conflicts = std::move(sides.blocks);
+  result.doubt.torn_at = sides.torn_at;
+  if (!other.doubt.anywhere && !other.document.nodes.empty())
+    result.doubt.other_side = std::make_shared<const Document>(std::move(other.document));
+  drop_other_side(result.problems, other.problems, result.doubt);
+  for (Diagnostic& problem : sides.problems) {
+    problem.file = file;
+    result.problems.push_back(std::move(problem));
+  }
+  std::stable_sort(result.problems.begin(), result.problems.end(), stands_before);
+  return result;
+}
+
 }  // namespace
 
 ReadResult read_document(std::string_view text, const std::string& file, const Registry& registry,
                          bool migrate) {
-  ReadResult result = Reader(text, file, registry, migrate).read();
-  drop_consequences(result.problems, result.in_doubt);
+  auto sides = conflict_sides(text);
+  ReadResult result = sides ? read_sides(std::move(*sides), file, registry, migrate)
+                            : Reader(text, file, registry, migrate).read();
+  drop_consequences(result.problems, result.doubt);
   return result;
 }
 

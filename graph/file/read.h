@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "graph/document.h"
-#include "graph/file/parse_json.h"
+#include "graph/file/doubt.h"
 #include "graph/registry.h"
 
 namespace kinegraph {
@@ -13,7 +13,7 @@ struct ReadResult {
   Document document;     // as far as it could be read; migrated to current versions in memory
   Diagnostics problems;  // with an error among them the document must not be run or saved
   bool migrated = false;
-  bool in_doubt = false;  // see parse_json.h: part of the document may be missing or stand in the wrong place
+  Doubt doubt;
 };
 // Text -> Document: shape and keys, names, node types and versions, parameter and port names, link syntax. Whether values
 // fit their parameters and links lead somewhere is for validate() to say, which also works on a document with problems.

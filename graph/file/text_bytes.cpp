@@ -7,8 +7,6 @@
 #include <cstring>
 #include <utility>
 
-#include "graph/file/mended_text.h"
-
 namespace kinegraph {
 
 std::size_t first_bad_utf8(std::string_view text) {
@@ -41,42 +39,180 @@ std::size_t first_bad_utf8(std::string_view text) {
   return std::string_view::npos;
 }
 
-void find_conflict_markers(std::string_view text, Diagnostics& found) {
-  bool inside = false;
-  int line = 1;
-  for (std::size_t start = 0; start < text.size(); ++line) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    const std::string_view row = text.substr(start, end - start);
-    const bool opens = row.starts_with("<<<<<<<");
-    if (opens || row.starts_with(">>>>>>>") || row.starts_with("=======") || row.starts_with("|||||||")) {
-      if (opens || !inside)
-        found.push_back(
-            error("conflict-markers", fmt::format("git's conflict marker {}", row.substr(0, 7)))
-                .in_file("", {line, 1})
-                .hinting("finish the merge: keep a side at each marker, take the markers out, then "
-                         "kinegraph fmt"));
-      inside = !row.starts_with(">>>>>>>");
-    }
-    start = end + 1;
-  }
+namespace {
+
+constexpr std::string_view replaced = "\xEF\xBF\xBD";  // U+FFFD
+constexpr int most_told = 50;
+
+bool is_control(char c) {
+  return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r';
 }
 
-std::string as_utf8(std::string_view text, Diagnostics& found) {
-  std::string whole(text);
-  JsonCursor cursor(whole);
-  for (int line = 0;;) {
-    const std::size_t bad = first_bad_utf8(cursor.rest());
-    if (bad == std::string_view::npos) return whole;
-    const std::size_t at = cursor.offset() + bad;
-    const char byte = std::exchange(whole[at], '?');
-    cursor.advance_to(at);
-    if (line == cursor.place().line) continue;
-    line = cursor.place().line;
-    found.push_back(
-        error("bad-utf8", fmt::format("byte 0x{:02x} isn't UTF-8", static_cast<unsigned char>(byte)))
-            .hinting("save the file as UTF-8"));
-    found.back().place = cursor.place();
+// '<': UTF-16 of Windows, '>': of the other byte order, '\0': neither. A graph begins with a { or a blank.
+char order_of_utf16(std::string_view text) {
+  if (text.starts_with("\xFF\xFE")) return '<';
+  if (text.starts_with("\xFE\xFF")) return '>';
+  if (text.size() < 4) return '\0';
+  if (text[0] != 0 && text[1] == 0 && text[2] != 0 && text[3] == 0) return '<';
+  if (text[0] == 0 && text[1] != 0 && text[2] == 0 && text[3] != 0) return '>';
+  return '\0';
+}
+
+std::string from_utf16(std::string_view text, char order) {
+  std::string whole;
+  const auto unit = [&](std::size_t i) {
+    const auto a = static_cast<unsigned char>(text[i]), b = static_cast<unsigned char>(text[i + 1]);
+    return order == '<' ? a | b << 8 : a << 8 | b;
+  };
+  for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
+    auto code = static_cast<unsigned>(unit(i));
+    if (i == 0 && code == 0xFEFF) continue;
+    const bool surrogate = code >= 0xD800 && code < 0xE000;
+    const unsigned low = surrogate && i + 3 < text.size() ? static_cast<unsigned>(unit(i + 2)) : 0;
+    if (surrogate && code < 0xDC00 && low >= 0xDC00 && low < 0xE000) {
+      code = 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00);
+      i += 2;
+    }
+    append_utf8(whole, surrogate && code < 0x10000 ? 0xFFFD : code);
   }
+  return whole;
+}
+
+// The length of a blank that other programs write and JSON doesn't know, which nobody sees; 0: none.
+std::size_t foreign_blank(std::string_view text) {
+  for (const std::string_view blank : {"\xC2\xA0", "\xC2\x85", "\xEF\xBB\xBF", "\xE3\x80\x80", "\xE2\x80\xA8",
+                                       "\xE2\x80\xA9", "\xE2\x80\xAF", "\xE2\x81\x9F", "\xE2\x81\xA0"})
+    if (text.starts_with(blank)) return blank.size();
+  const bool in_block = text.size() > 2 && text.starts_with("\xE2\x80") &&
+                        static_cast<unsigned char>(text[2]) >= 0x80 &&
+                        static_cast<unsigned char>(text[2]) <= 0x8F;
+  return in_block ? 3 : 0;  // U+2000 to U+200F
+}
+
+class Cleaner {
+ public:
+  Cleaner(std::string_view text, Diagnostics& found) : text_(text), found_(found) {}
+
+  std::string clean() {
+    next_bad_ = first_bad_utf8(text_);
+    while (at_ < text_.size()) step();
+    if (untold_ > 0)
+      found_.back().hint += fmt::format("; {} more lines hold such bytes or characters", untold_);
+    return std::move(whole_);
+  }
+
+ private:
+  void step() {
+    const char c = text_[at_];
+    if (at_ == next_bad_) {
+      tell(told_bad_utf8_, not_utf8(c));
+      replace(1);
+      const std::size_t further = first_bad_utf8(text_.substr(at_));
+      next_bad_ = further == text_.npos ? further : at_ + further;
+      return;
+    }
+    if (is_control(c)) {
+      tell(told_character_,
+           error("bad-character", fmt::format("the control character U+{:04X}", static_cast<int>(c)))
+               .hinting("remove it"));
+      return replace(1);
+    }
+    if (const std::size_t length = in_string_ ? 0 : foreign_blank(text_.substr(at_)); length > 0) {
+      tell(told_character_,
+           error("bad-character", "a blank that JSON doesn't know, copied from elsewhere perhaps")
+               .hinting("write a space instead"));
+      return replace(length);
+    }
+    if (c == '\n') {
+      ++line_;
+      column_ = 0;
+      in_string_ = told_bad_utf8_ = told_character_ = false;
+    } else if (c == '"') {
+      in_string_ = !in_string_;
+    } else if (c == '\\' && in_string_ && at_ + 1 < text_.size() &&
+               (text_[at_ + 1] == '"' || text_[at_ + 1] == '\\')) {
+      whole_ += c;
+      ++column_;
+      ++at_;
+    }
+    column_ += (static_cast<unsigned char>(text_[at_]) & 0xC0) != 0x80 && c != '\n';
+    whole_ += text_[at_++];
+  }
+
+  void replace(std::size_t length) {
+    whole_ += in_string_ ? replaced : " ";
+    at_ += length;
+    ++column_;
+  }
+  void tell(bool& told, Diagnostic problem) {
+    if (std::exchange(told, true)) return;
+    if (told_ == most_told) {
+      ++untold_;
+      return;
+    }
+    ++told_;
+    problem.place = {line_, column_ + 1};
+    found_.push_back(std::move(problem));
+  }
+
+  std::string_view text_;
+  Diagnostics& found_;
+  std::string whole_;
+  std::size_t at_ = 0, next_bad_ = 0;
+  int line_ = 1, column_ = 0, told_ = 0, untold_ = 0;
+  bool in_string_ = false, told_bad_utf8_ = false, told_character_ = false;
+};
+
+}  // namespace
+
+Diagnostic not_utf8(char byte) {
+  return error("bad-utf8", fmt::format("byte 0x{:02x} isn't UTF-8", static_cast<unsigned char>(byte)))
+      .hinting("save the file as UTF-8");
+}
+
+bool is_plain(std::string_view text) {
+  if (std::any_of(text.begin(), text.end(), is_control) || first_bad_utf8(text) != text.npos) return false;
+  for (const char lead : {'\xC2', '\xE2', '\xE3', '\xEF'})
+    for (std::size_t at = text.find(lead); at != text.npos; at = text.find(lead, at + 1))
+      if (foreign_blank(text.substr(at)) > 0) return false;
+  return true;
+}
+
+bool is_text(std::string_view text) {
+  if (order_of_utf16(text) != '\0') return true;
+  const std::size_t end = text.find_last_not_of('\0');  // what a crash can leave behind
+  if (end == text.npos) return text.empty();
+  text = text.substr(0, std::min<std::size_t>(end + 1, 4096));
+  return 10 * std::count_if(text.begin(), text.end(), is_control) <= static_cast<std::ptrdiff_t>(text.size());
+}
+
+std::string as_text(std::string_view text, Diagnostics& found) {
+  if (const char order = order_of_utf16(text); order != '\0') {
+    found.push_back(error("bad-utf8", "the file is UTF-16").hinting("save it as UTF-8"));
+    found.back().place = {1, 1};
+    return from_utf16(text, order);
+  }
+  return Cleaner(text, found).clean();
+}
+
+void append_utf8(std::string& text, unsigned code) {
+  const auto put = [&](unsigned byte) { text += static_cast<char>(byte); };
+  if (code < 0x80) return put(code);
+  if (code < 0x800) {
+    put(0xC0 | code >> 6);
+  } else if (code < 0x10000) {
+    put(0xE0 | code >> 12);
+    put(0x80 | (code >> 6 & 63));
+  } else {
+    put(0xF0 | code >> 18);
+    put(0x80 | (code >> 12 & 63));
+    put(0x80 | (code >> 6 & 63));
+  }
+  put(0x80 | (code & 63));
+}
+
+bool has_replaced(std::string_view text) {
+  return text.find(replaced) != text.npos;
 }
 
 }  // namespace kinegraph

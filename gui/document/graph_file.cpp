@@ -79,7 +79,7 @@ GraphFile read_graph_text(const std::string& text, const QString& path, const Re
   options.file = shown;
   options.folder = folder.toStdString();
   options.allow_presets = true;
-  file.problems = all_problems(file.document, std::move(file.problems), read.in_doubt, registry, options);
+  file.problems = all_problems(file.document, std::move(file.problems), read.doubt, registry, options);
   return file;
 }
 

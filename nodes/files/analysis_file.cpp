@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "graph/file/read.h"
+#include "graph/file/parse_json.h"
 #include "graph/json_text.h"
 #include "nodes/files/json_fields.h"
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "graph/file/parse_json.h"
 #include "graph/nested.h"
 #include "graph/validate.h"
 #include "tests/graph/toy_graphs.h"

@@ -132,11 +132,102 @@ TEST(ReadPastMistakes, OfAWindowsEditorsMarkColumnsAreThoseOfTheText) {
             (std::vector<std::string>{"1:1 byte-order-mark", "1:35 bad-version"}));
 }
 
-// Where both sides of a merge stand, nothing can be judged before one of them is gone.
-TEST(ReadPastMistakes, ConflictMarkersStop) {
-  const ReadResult result = judged(between_mistakes("<<<<<<< ours"));
-  EXPECT_EQ(toys::in_short(result.problems), (std::vector<std::string>{"3:1 conflict-markers"}));
-  EXPECT_TRUE(result.document.nodes.empty());
+TEST(ReadPastMistakes, OfConflictsTheFirstSideIsJudgedAndEachIsTold) {
+  const std::string conflict =
+      "<<<<<<< ours\n\"a\": {\"type\": \"Load\", \"nte\": \"\"},\n||||||| base\n\"a\": 1,\n=======\n"
+      "\"a\": {\"type\": \"Load\", \"params\": {\"fps\": 9999}},\n>>>>>>> theirs";
+  EXPECT_EQ(toys::in_short(judged(between_mistakes(conflict + "\n" + conflict)).problems),
+            (std::vector<std::string>{"2:15 unknown-type", "3:1 conflict-markers", "4:23 unknown-key",
+                                      "10:1 conflict-markers", "11:1 duplicate-key", "17:34 unknown-param",
+                                      "17:54 out-of-range"}));
+}
+
+// "new" is linked outside the conflict, and only the second side holds it; the other way round the second
+// side has no "old".
+TEST(ReadPastMistakes, WhatOnlyFollowsFromAConflictsSidesIsNotTold) {
+  const std::string text =
+      "{\"format\": \"kinegraph\", \"schema\": 1, \"nodes\": {\n<<<<<<< ours\n\"old\": {\"type\": "
+      "\"Load\"},\n"
+      "=======\n\"new\": {\"type\": \"Load\"},\n>>>>>>> theirs\n"
+      "\"s\": {\"type\": \"QuatStats\", \"inputs\": {\"motion\": \"new.motion\"}},\n"
+      "\"t\": {\"type\": \"QuatStats\", \"inputs\": {\"motion\": \"nobody.motion\"}}}}";
+  EXPECT_EQ(toys::in_short(judged(text).problems),
+            (std::vector<std::string>{"2:1 conflict-markers", "8:49 unknown-node"}));
+}
+
+// Somebody took one of the markers out, and where the sides begin and end can't be told.
+TEST(ReadPastMistakes, OfAConflictWithoutAllOfItsMarkersWhatIsCertainIsTold) {
+  const std::string ours = "\"a\": {\"type\": \"Load\"},\n",
+                    theirs = "\"a\": {\"type\": \"Load\", \"note\": \"\"},";
+  using Told = std::vector<std::string>;
+  EXPECT_EQ(toys::in_short(judged(between_mistakes("<<<<<<< ours\n" + ours + "=======\n" + theirs)).problems),
+            (Told{"2:15 unknown-type", "3:1 conflict-markers", "7:34 unknown-param", "7:54 out-of-range"}));
+  EXPECT_EQ(
+      toys::in_short(judged(between_mistakes(ours + "=======\n" + theirs + "\n>>>>>>> theirs")).problems),
+      (Told{"2:15 unknown-type", "4:1 conflict-markers", "6:1 conflict-markers", "7:34 unknown-param",
+            "7:54 out-of-range"}));
+}
+
+TEST(ReadPastMistakes, OfATextWithZerosEachLineThatHoldsThemIsTold) {
+  using namespace std::string_literals;
+  EXPECT_EQ(toys::in_short(judged(between_mistakes("\"a\": \0\0{\"type\":\0\"Load\"},"s)).problems),
+            (std::vector<std::string>{"2:15 unknown-type", "3:6 bad-character", "4:34 unknown-param",
+                                      "4:54 out-of-range"}));
+  // What a crash leaves behind.
+  const std::string text = between_mistakes("") + std::string(40'000, '\0');
+  EXPECT_EQ(toys::in_short(judged(text).problems),
+            (std::vector<std::string>{"2:15 unknown-type", "4:34 unknown-param", "4:54 out-of-range",
+                                      "4:62 bad-character"}));
+}
+
+// A path, a node's name and the links to it: they are misspelled by those bytes alone.
+TEST(ReadPastMistakes, OfNamesWithBytesThatCannotBeReadNothingElseIsTold) {
+  using namespace std::string_literals;
+  for (const std::string& bad : {"\xFC"s, "\0"s, "\x1B"s}) {
+    const auto told = toys::in_short(
+        judged(between_mistakes(
+                   "\"gr" + bad + "n\": {\"type\": \"Load\", \"params\": {\"f" + bad + "s\": 1}},\n\"s\": " +
+                   "{\"type\": \"QuatStats\", \"inputs\": {\"motion\": \"gr" + bad + "n.motion\"}},"))
+            .problems);
+    const std::string code = bad == "\xFC" ? " bad-utf8" : " bad-character";
+    EXPECT_EQ(told, (std::vector<std::string>{"2:15 unknown-type", "3:4" + code, "4:52" + code,
+                                              "5:34 unknown-param", "5:54 out-of-range"}));
+  }
+}
+
+TEST(ReadPastMistakes, BlanksOfOtherProgramsAreNamed) {
+  for (const char* blank : {"\u00A0", "\u200B", "\u3000", "\uFEFF", "\f", "\v"}) {
+    const ReadResult result = judged(
+        between_mistakes(std::string("\"a\":") + blank + "{\"type\": \"Load\", \"note\": \"\u00A0\"},"));
+    EXPECT_EQ(toys::in_short(result.problems),
+              (std::vector<std::string>{"2:15 unknown-type", "3:5 bad-character", "4:34 unknown-param",
+                                        "4:54 out-of-range"}));
+    EXPECT_EQ(result.document.nodes.at("a").note, "\u00A0");
+  }
+}
+
+TEST(ReadPastMistakes, Utf16IsToldOnceAndReadPast) {
+  for (const bool little : {true, false})
+    for (const std::u16string mark : {u"\uFEFF", u""}) {
+      std::string text;
+      const std::string plain = between_mistakes("");
+      for (const char16_t unit : mark + std::u16string(plain.begin(), plain.end())) {
+        const char low = static_cast<char>(unit & 0xFF), high = static_cast<char>(unit >> 8);
+        (text += little ? low : high) += little ? high : low;
+      }
+      EXPECT_EQ(toys::in_short(judged(text).problems),
+                (std::vector<std::string>{"1:1 bad-utf8", "2:15 unknown-type", "4:34 unknown-param",
+                                          "4:54 out-of-range"}));
+    }
+}
+
+TEST(ReadPastMistakes, WhatIsNoTextIsToldOnce) {
+  std::string bytes;
+  for (int i = 0; i < 100'000; ++i) bytes += static_cast<char>(i * 7919 >> 3);
+  EXPECT_EQ(toys::in_short(judged("\x89PNG" + bytes).problems),
+            (std::vector<std::string>{"1:1 not-a-graph"}));
+  EXPECT_EQ(toys::in_short(judged(std::string(4096, '\0')).problems),
+            (std::vector<std::string>{"1:1 not-a-graph"}));
 }
 
 // One node a line, as people write them by hand.

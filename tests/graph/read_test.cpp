@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "graph/file/parse_json.h"
 #include "graph/links.h"
 #include "tests/graph/toy_graphs.h"
 
