@@ -121,7 +121,9 @@ std::string write_bvh(const Motion& given, const WriteOptions& options, Work& wo
   }
   if (given.joints() == 0)
     throw Failure(error("no-joints", "a motion without joints can't be a BVH").at_port("motion"));
-  const Motion motion = without_stretch(given, options.stretch, work);
+  const bool keeps = options.stretch == "keep";
+  const Motion without = keeps ? Motion() : without_stretch(given, options.stretch, work);
+  const Motion& motion = keeps ? given : without;
   const SourceFacts& facts = motion.source();
   const LengthUnit unit = unit_from_param(options.unit, unit_of_metres(facts.unit));
   const BvhLayout layout = bvh_layout(motion, options, unit, work);

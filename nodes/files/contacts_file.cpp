@@ -2,6 +2,7 @@
 
 #include "nodes/files/analysis_file.h"
 #include "nodes/files/decimal.h"
+#include "nodes/files/reserve_like.h"
 #include "nodes/files/json_fields.h"
 #include "nodes/motion/contacts.h"
 
@@ -79,6 +80,7 @@ std::string contacts_table(const Value& value, Work& work) {
   out += '\n';
   for (std::size_t t = 0; t < contacts.frames; ++t) {
     if (t % 1024 == 0) work.check();
+    if (t == 1024) reserve_like(out, t, contacts.frames);
     out += std::to_string(t) + ',';
     append_shortest(out, static_cast<double>(t) / contacts.fps);
     for (const FootPoint& point : contacts.points) out += point.planted[t] ? ",1" : ",0";

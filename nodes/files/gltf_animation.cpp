@@ -124,14 +124,18 @@ void tell_other_clips(const std::vector<tinygltf::Animation>& all, Work& work) {
           .at_param("clip"));
 }
 
+constexpr std::size_t asked_each = 4096;  // frames
+
 // The lowest whole rate on whose frames all times lie; 0 = none.
-double rate_of_keys(const std::set<double>& times) {
-  for (int rate = 24; rate <= 240; ++rate)
+double rate_of_keys(const std::set<double>& times, Work& work) {
+  for (int rate = 24; rate <= 240; ++rate) {
+    work.check();
     if (std::all_of(times.begin(), times.end(), [&](double time) {
           const double frame = time * rate;
           return std::fabs(frame - std::floor(frame + 0.5)) <= 1e-3;
         }))
       return rate;
+  }
   return 0;
 }
 
@@ -176,13 +180,16 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
       const bool known = std::any_of(channels.begin(), channels.end(),
                                      [&](const Channel& other) { return other.times == its_times; });
       channels.push_back({channel.target_node, channel.target_path, &keys, its_times, width});
-      if (!known) times.insert(its_times->begin(), its_times->end());
+      for (std::size_t i = 0; !known && i < its_times->size(); ++i) {
+        if (i % asked_each == 0) work.check();
+        times.insert(times.end(), (*its_times)[i]);  // they rise
+      }
     }
   } else {
     work.report(info("no-clip", "the file has no animation; the motion is one frame at rest"));
   }
   const bool cut = options.range.start != 0 || options.range.end || options.drop_rest_frame;
-  double fps = options.fps > 0 && !cut ? options.fps : rate > 0 ? rate : rate_of_keys(times);
+  double fps = options.fps > 0 && !cut ? options.fps : rate > 0 ? rate : rate_of_keys(times, work);
   if (fps == 0) {
     fps = 60;
     work.report(info("resampled", "the keys lie on no whole frame rate; the clip is sampled at 60"));
@@ -212,6 +219,7 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
     const Vec3 rest = skeleton.joints[joint].offset;
     const Sampler sampler = channel.sampler(file);
     for (std::size_t t = 0; t < frames && !translates[joint]; ++t) {
+      if (t % asked_each == 0) work.check();
       sampler.at(time_of(t), false, value.data());
       const Vec3 place = nodes.scale_of_parent[joint] * Vec3{value[0], value[1], value[2]};
       translates[joint] = norm(place - rest) > 1e-7 + 1e-5 * norm(rest);
@@ -231,6 +239,7 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
       for (std::size_t k = 0; k < targets; ++k)
         out.morphs.push_back({channel.node, static_cast<int>(k), std::vector<double>(frames)});
       for (std::size_t t = 0; t < frames; ++t) {
+        if (t % 64 == 0) work.check();  // a face has hundreds of targets
         sampler.at(time_of(t), false, weights.data());
         for (std::size_t k = 0; k < targets; ++k) out.morphs[first + k].weights[t] = weights[k];
       }
@@ -238,6 +247,7 @@ GltfClip gltf_clip(const GltfFile& file, const GltfNodes& nodes, const SourceFac
     }
     if (joint < 0) continue;
     for (std::size_t t = 0; t < frames; ++t) {
+      if (t % asked_each == 0) work.check();
       sampler.at(time_of(t), channel.path == "rotation", value.data());
       if (channel.path == "rotation") {
         out.motion.rotation(joint).set(t, normalized(Quat{value[0], value[1], value[2], value[3]}));

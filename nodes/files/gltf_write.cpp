@@ -160,7 +160,10 @@ void add_motion(GltfOut& out, Animation& animation, const Motion& motion, const 
     const bool root = skeleton.joints[j].parent < 0;
     std::vector<float> turns, places;
     double turned = 0, moved = 0;
+    turns.reserve(4 * motion.frames());
+    places.reserve(3 * motion.frames());
     for (std::size_t t = 0; t < motion.frames(); ++t) {
+      if (t % 4096 == 0) work.check();
       Quat turn_now = motion.rotation(k)[t];
       Vec3 place = motion.local_offset(k, t);
       if (root && !same_above) {

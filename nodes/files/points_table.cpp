@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "nodes/files/decimal.h"
+#include "nodes/files/reserve_like.h"
 #include "nodes/files/json_fields.h"
 #include "nodes/files/points_units.h"
 #include "nodes/files/text_lines.h"
@@ -116,7 +117,10 @@ Points read_points_table(std::string_view text, const ReadOptions& options, Work
   std::vector<double> times;
   int decimals = 0;
   std::size_t rows = 0, frames = 0;
-  for (TextLines ahead = lines; !ahead.at_end();) frames += !trimmed(ahead.next()).empty();
+  for (TextLines ahead = lines; !ahead.at_end();) {
+    frames += !trimmed(ahead.next()).empty();
+    if (frames % 256 == 0) work.check();
+  }
   frames = std::min(frames, text.size() / columns.count + 1);  // a row has a byte a cell
   make_labels_unique(columns.labels, work);
   Points points(columns.labels, options.rate, frames);
@@ -172,6 +176,7 @@ std::string write_points_table(const Points& points, Work& work) {
   out += '\n';
   for (std::size_t t = 0; t < points.frames; ++t) {
     if (t % 16 == 0) work.check();
+    if (t == 64) reserve_like(out, t, points.frames);
     out += fmt::format("{},", t);
     append_shortest(out, static_cast<double>(t) / points.fps);
     for (int label = 0; label < static_cast<int>(points.labels.size()); ++label)

@@ -18,6 +18,7 @@ Motion without_stretch(const Motion& motion, std::string_view stretch, Work& wor
     const double slack = std::max(1e-9, 1e-6 * norm(joint.offset));
     auto track = motion.translation(j);
     for (std::size_t t = 0; t < motion.frames(); ++t) {
+      if (t % 4096 == 0) work.check();
       const double apart = norm(track[t] - joint.offset);
       if (apart <= slack) continue;
       if (stretch == "error")
@@ -39,6 +40,7 @@ Motion without_stretch(const Motion& motion, std::string_view stretch, Work& wor
                     .at_joint(farthest_joint));
   Motion rigid(motion.shared_skeleton(), motion.shared_source(), motion.fps(), motion.frames(), translates);
   for (int j = 0; j < motion.joints(); ++j) {
+    work.check();
     auto from = motion.rotation(j);
     auto to = rigid.rotation(j);
     std::copy(from.x.begin(), from.x.end(), to.x.begin());

@@ -7,6 +7,7 @@
 
 #include "nodes/files/decimal.h"
 #include "nodes/files/points_units.h"
+#include "nodes/files/reserve_like.h"
 #include "nodes/files/text_lines.h"
 #include "nodes/files/text_place.h"
 #include "nodes/motion/elementary.h"
@@ -86,9 +87,12 @@ struct Rows {
   int decimals = 0;  // most digits after the point of a time
 };
 
-std::size_t lines_left(TextLines lines) {
+std::size_t lines_left(TextLines lines, Work& work) {
   std::size_t count = 0;
-  for (; !lines.at_end(); ++count) lines.next();
+  for (; !lines.at_end(); ++count) {
+    if (count % 256 == 0) work.check();
+    lines.next();
+  }
   return count;
 }
 
@@ -174,7 +178,7 @@ Points read_trc(std::string_view text, const ReadOptions& options, Work& work) {
   std::vector<std::string> labels = read_labels(lines, header);
   make_labels_unique(labels, work);
   // No more frames than there are lines and bytes for, whatever the header says.
-  const std::size_t most = std::min(lines_left(lines), text.size() / (3 * header.markers + 1) + 1);
+  const std::size_t most = std::min(lines_left(lines, work), text.size() / (3 * header.markers + 1) + 1);
   Points points(std::move(labels), 0, std::min(header.frames, most));
   const Rows rows = read_rows(lines, header, points, work);
   points.fps = rate_of(header, rows, work);
@@ -207,6 +211,7 @@ std::string write_trc(const Points& points, std::string_view name, const WriteOp
   out += "\n\n";
   for (std::size_t t = 0; t < points.frames; ++t) {
     if (t % 16 == 0) work.check();
+    if (t == 64) reserve_like(out, t, points.frames);
     out += fmt::format("{}\t", t + 1);
     append_fixed(out, static_cast<double>(t) / points.fps, std::max(6, options.precision));
     for (int label = 0; label < static_cast<int>(points.labels.size()); ++label) {
