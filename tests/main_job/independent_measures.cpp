@@ -64,6 +64,42 @@ std::vector<double> smoothed(const std::vector<double>& x, double fps, double cu
   return {y.begin() + static_cast<std::ptrdiff_t>(pad), y.begin() + static_cast<std::ptrdiff_t>(pad + n)};
 }
 
+// World orientations by plain kinematics.
+std::vector<std::vector<Quat>> orientations_of(const Motion& motion) {
+  std::vector<std::vector<Quat>> world(motion.joints(), std::vector<Quat>(motion.frames()));
+  for (int j = 0; j < motion.joints(); ++j)
+    for (std::size_t t = 0; t < motion.frames(); ++t) {
+      const int parent = motion.skeleton().joints[j].parent;
+      world[j][t] = (parent < 0 ? motion.skeleton().above : world[parent][t]) * motion.rotation(j)[t];
+    }
+  return world;
+}
+
+// Lengths of second differences, m/s², one less than `path` at each end.
+std::vector<double> accelerations(const std::vector<Vec3>& path, double fps) {
+  std::vector<double> out;
+  for (std::size_t t = 1; t + 1 < path.size(); ++t)
+    out.push_back(length(path[t + 1] - 2 * path[t] + path[t - 1]) * fps * fps);
+  return out;
+}
+
+std::vector<Vec3> smoothed(const std::vector<Vec3>& path, double fps, double cutoff) {
+  std::vector<Vec3> out(path.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> series;
+    for (const Vec3& p : path) series.push_back(p[axis]);
+    series = smoothed(series, fps, cutoff);
+    for (std::size_t t = 0; t < path.size(); ++t) out[t][axis] = series[t];
+  }
+  return out;
+}
+
+std::vector<Vec3> less(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  std::vector<Vec3> out;
+  for (std::size_t t = 0; t < a.size(); ++t) out.push_back(a[t] - b[t]);
+  return out;
+}
+
 }  // namespace
 
 Spread spread_of(const std::vector<Quat>& rotations) {
@@ -152,19 +188,8 @@ std::map<std::string, double> largest_accelerations(const Motion& motion) {
   const auto positions = positions_of(motion);
   const double fps = motion.fps();
   for (int j = 0; j < motion.joints(); ++j) {
-    std::vector<double> axes[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      std::vector<double> series;
-      for (const Vec3& p : positions[j]) series.push_back(p[axis]);
-      axes[axis] = smoothed(series, fps, 15);
-    }
     double largest = 0;
-    for (std::size_t t = 1; t + 1 < motion.frames(); ++t) {
-      Vec3 a;
-      for (int axis = 0; axis < 3; ++axis)
-        a[axis] = (axes[axis][t + 1] - 2 * axes[axis][t] + axes[axis][t - 1]) * fps * fps;
-      largest = std::max(largest, length(a));
-    }
+    for (double a : accelerations(smoothed(positions[j], fps, 15), fps)) largest = std::max(largest, a);
     out[motion.skeleton().joints[j].name] = largest;
   }
   return out;
@@ -172,13 +197,7 @@ std::map<std::string, double> largest_accelerations(const Motion& motion) {
 
 double farthest_from_plants(const Motion& motion, const Contacts& contacts) {
   const auto positions = positions_of(motion);
-  // World orientation by plain kinematics, for points that lie in a joint's frame.
-  std::vector<std::vector<Quat>> world(positions.size(), std::vector<Quat>(motion.frames()));
-  for (int j = 0; j < motion.joints(); ++j)
-    for (std::size_t t = 0; t < motion.frames(); ++t) {
-      const int parent = motion.skeleton().joints[j].parent;
-      world[j][t] = (parent < 0 ? motion.skeleton().above : world[parent][t]) * motion.rotation(j)[t];
-    }
+  const auto world = orientations_of(motion);
   double largest = 0;
   for (const FootPoint& point : contacts.points) {
     const int joint = motion.skeleton().find(point.joint_name);
@@ -194,6 +213,42 @@ double farthest_from_plants(const Motion& motion, const Contacts& contacts) {
     }
   }
   return largest;
+}
+
+Added most_added(const Motion& before, const Motion& after, const Contacts& contacts) {
+  const Skeleton& skeleton = before.skeleton();
+  const auto from = positions_of(before), to = positions_of(after);
+  const auto was = orientations_of(before), is = orientations_of(after);
+  const double fps = before.fps();
+  Added most;
+  std::vector<std::vector<double>> repeated(from.size(), std::vector<double>(before.frames()));
+  for (int joint = 0; joint < before.joints(); ++joint) {
+    const int parent = skeleton.joints[joint].parent;
+    if (parent >= 0) {
+      const auto link = accelerations(less(from[joint], from[parent]), fps);
+      for (std::size_t t = 1; t + 1 < before.frames(); ++t)
+        repeated[joint][t] =
+            repeated[parent][t] + 2 * std::sin(full_turn(was[parent][t], is[parent][t]) / 2) * link[t - 1];
+    }
+    std::vector<bool> near(before.frames(), false);
+    for (const FootPoint& point : contacts.points) {
+      const int ankle = skeleton.find(point.foot);
+      const int hip = skeleton.joints[skeleton.joints[ankle].parent].parent;
+      if (joint == hip || !skeleton.is_below(joint, hip)) continue;
+      for (const Run& run : runs_of(point.planted))
+        for (std::size_t t = run.start < 2 ? 0 : run.start - 2; t < std::min(near.size(), run.end + 2); ++t)
+          near[t] = true;
+    }
+    const auto moved = less(to[joint], from[joint]);
+    const auto raw = accelerations(moved, fps), calm = accelerations(smoothed(moved, fps, 15), fps);
+    for (std::size_t t = 1; t + 1 < before.frames(); ++t) {
+      if (near[t]) continue;
+      most.raw = std::max(most.raw, raw[t - 1]);
+      most.calm = std::max(most.calm, calm[t - 1]);
+      most.own = std::max(most.own, raw[t - 1] - repeated[joint][t]);
+    }
+  }
+  return most;
 }
 
 std::string joints_that_jerk(const Motion& result, const Motion& one, const Motion& other) {

@@ -41,6 +41,16 @@ std::map<std::string, double> largest_accelerations(const Motion& motion);
 // the numbers; empty where all is smooth.
 std::string joints_that_jerk(const Motion& result, const Motion& one, const Motion& other);
 
+// What a cleanup of the feet adds to a motion more than two frames from a plant of the leg (elsewhere: in any
+// frame): second differences of the joints' moves, m/s², the largest over joints and frames.
+struct Added {
+  double raw = 0;   // of the frames as they are
+  double calm = 0;  // after a zero-phase 15 Hz low-pass of the moves
+  double own = 0;  // raw, less the part of the clip's jumps that a link which was turned by θ has to repeat:
+                   // 2 sin(θ/2) of its own second difference, for each link from the root on
+};
+Added most_added(const Motion& before, const Motion& after, const Contacts& contacts);
+
 // Degrees by which the line from one joint to another leans forwards of upright, mean over the frames;
 // forwards is square to the line from the right hip to the left one.
 double mean_pitch(const Motion& motion, const std::string& from, const std::string& to,
