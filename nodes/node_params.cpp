@@ -8,6 +8,7 @@
 #include "nodes/motion/cut_links.h"
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/joint_pattern.h"
+#include "nodes/motion/moving_root.h"
 
 namespace kinegraph {
 
@@ -167,9 +168,8 @@ void warn_about_partners(const Skeleton& from, const Skeleton& to, const std::ve
     if (partner < 0 || !counts(j)) continue;
     int ancestor = to.joints[j].parent;
     while (ancestor >= 0 && partner_of_to[ancestor] < 0) ancestor = to.joints[ancestor].parent;
-    if (ancestor < 0 || partner_of_to[ancestor] == partner ||
-        !from.is_below(partner, partner_of_to[ancestor]))
-      continue;
+    if (ancestor < 0 || (ancestor == 0 && carries_the_legs(to, j))) continue;
+    if (partner_of_to[ancestor] == partner || !from.is_below(partner, partner_of_to[ancestor])) continue;
     Vec3 a = rest_way(from_pose, partner_of_to[ancestor], partner);
     Vec3 b = rest_way(to_pose, ancestor, j);
     // A cut link starts along a curve: where it leads to is the same, its first joint's frame is turned.

@@ -128,12 +128,12 @@ void draw_contact_marks(Canvas& canvas, const Row& row, const StripLayout& layou
   }
 }
 
-// log2 of a link's length over its rest length: 1 = twice, -1 = half. 0 for the root and links that are
-// nothing at rest.
+// log2 of a link's length over its rest length: 1 = twice, -1 = half. 0 for where the body stands and links
+// that are nothing at rest.
 double stretch_of(const Row& row, int joint, std::size_t frame) {
   const Skeleton& skeleton = row.asked->motion->skeleton();
   const int parent = skeleton.joints[static_cast<std::size_t>(joint)].parent;
-  if (parent < 0) return 0;
+  if (parent < 0 || joint == row.figure.body()) return 0;
   const double rest = skeleton.link_length(joint) * skeleton.above_scale;
   const double length = norm(row.world.position(joint)[frame] - row.world.position(parent)[frame]);
   if (rest < 0.005 * row.figure.height() || length < 1e-6 * rest) return 0;

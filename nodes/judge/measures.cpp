@@ -11,6 +11,7 @@
 #include "nodes/judge/feet_measures.h"
 #include "nodes/judge/smoothness_measures.h"
 #include "nodes/motion/metric_name.h"
+#include "nodes/motion/moving_root.h"
 #include "nodes/node_params.h"
 #include "nodes/style/quat_stats.h"
 
@@ -66,7 +67,20 @@ std::vector<Row> distances(const Motion& motion, const WorldMotion& world, const
   const Compared pair{motion, world, *reference, reference_world, partner};
   rows[0].measured = position_distance(pair, window);
   rows[1].measured = rotation_distance(pair, window);
-  rows[2].measured = aligned_distance(pair, window, work);
+  // Where a joint below a still root carries the body, its path and heading are the root's.
+  const auto unowned = [](const Motion& one) {
+    return std::shared_ptr<const Motion>(std::shared_ptr<const Motion>(), &one);
+  };
+  const auto told = with_moving_root(unowned(motion), work),
+             told_reference = with_moving_root(unowned(*reference), work);
+  std::optional<WorldMotion> own_world, own_reference_world;
+  const WorldMotion& told_world =
+      told.get() == &motion ? world : own_world.emplace(world_motion(*told, work));
+  const WorldMotion& told_reference_world =
+      told_reference.get() == reference ? reference_world
+                                        : own_reference_world.emplace(world_motion(*told_reference, work));
+  rows[2].measured =
+      aligned_distance({*told, told_world, *told_reference, told_reference_world, partner}, window, work);
   if (window.size() > 0 && reference->frames() > 0) {
     QuatStatsParams own;
     own.joints = joints;
@@ -78,7 +92,7 @@ std::vector<Row> distances(const Motion& motion, const WorldMotion& world, const
       if (joint >= 0) other.joints[static_cast<std::size_t>(joint)] = true;
     }
     rows[3].measured =
-        style_distance(quat_stats(motion, own, work), quat_stats(*reference, other, work), partner);
+        style_distance(quat_stats(*told, own, work), quat_stats(*told_reference, other, work), partner);
   }
   return rows;
 }

@@ -23,7 +23,7 @@ NodeType metrics_node() {
   add_joints_param(type);
   add_range_param(type);
   add_map_param(type);
-  type.code_version = 4;
+  type.code_version = 5;
   type.compute = [](Compute& compute) {
     const auto& motion = compute.input<Motion>("motion");
     const Params& params = compute.params();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "nodes/judge/spectral_arc_length.h"
+#include "nodes/motion/moving_root.h"
 #include "nodes/time/lowpass.h"
 
 namespace kinegraph {
@@ -77,6 +78,7 @@ std::optional<double> largest_bone_drift(const Motion& motion, int joint, Window
   const double rest = motion.skeleton().link_length(joint);
   if (joint == 0 || rest < 1e-6 || window.size() == 0) return std::nullopt;
   if (!motion.translates(joint)) return 0.0;
+  if (carries_the_legs(motion.skeleton(), joint)) return std::nullopt;
   double largest = 0;
   for (std::size_t t = window.start; t < window.end; ++t) {
     largest = std::max(largest, std::fabs(norm(motion.local_offset(joint, t)) / rest - 1));

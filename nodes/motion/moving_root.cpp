@@ -15,7 +15,7 @@ bool stands_still(const Motion& motion) {
     if (turn(rotation[0], rotation[t]) > 1e-6 ||
         norm(motion.local_offset(0, t) - motion.local_offset(0, 0)) > 1e-6)
       return false;
-  return motion.frames() > 1;
+  return motion.frames() > 0;
 }
 
 bool moves(const Motion& motion, int joint) {
@@ -27,13 +27,8 @@ bool moves(const Motion& motion, int joint) {
 
 // -1: none.
 int carrier_of(const Motion& motion) {
-  const Skeleton& skeleton = motion.skeleton();
-  const auto legs = find_legs(skeleton);
-  if (legs.size() != 2) return -1;
-  for (int joint = 1; joint < skeleton.size(); ++joint)  // parents come first
-    if (skeleton.is_below(legs[0].hip, joint) && skeleton.is_below(legs[1].hip, joint) &&
-        moves(motion, joint))
-      return joint;
+  for (int joint = 1; joint < motion.joints(); ++joint)  // parents come first
+    if (moves(motion, joint) && carries_the_legs(motion.skeleton(), joint)) return joint;
   return -1;
 }
 
@@ -49,12 +44,8 @@ Motion alone(const WorldMotion& world, int carrier, Quat rest, double fps) {
   return motion;
 }
 
-}  // namespace
-
-std::shared_ptr<const Motion> with_moving_root(std::shared_ptr<const Motion> motion, Work& work) {
-  if (motion->joints() < 2 || !stands_still(*motion)) return motion;
-  const int carrier = carrier_of(*motion);
-  if (carrier < 0) return motion;
+std::shared_ptr<const Motion> carried_by(const std::shared_ptr<const Motion>& motion, int carrier,
+                                         Work& work) {
   const Skeleton& skeleton = motion->skeleton();
   const WorldMotion world = world_motion(*motion, work);
   const Quat rest = rest_pose(skeleton).orientations[static_cast<std::size_t>(carrier)];
@@ -83,6 +74,35 @@ std::shared_ptr<const Motion> with_moving_root(std::shared_ptr<const Motion> mot
   const auto track = out.rotation(0);
   make_continuous(track.x, track.y, track.z, track.w);
   return std::make_shared<const Motion>(std::move(out));
+}
+
+}  // namespace
+
+bool carries_the_legs(const Skeleton& skeleton, int joint) {
+  const auto legs = find_legs(skeleton);
+  return joint > 0 && legs.size() == 2 && std::all_of(legs.begin(), legs.end(), [&](const Leg& leg) {
+           return skeleton.is_below(leg.hip, joint);
+         });
+}
+
+std::shared_ptr<const Motion> with_moving_root(std::shared_ptr<const Motion> motion, Work& work) {
+  return with_moving_roots({std::move(motion)}, work).front();
+}
+
+std::vector<std::shared_ptr<const Motion>> with_moving_roots(
+    std::vector<std::shared_ptr<const Motion>> motions, Work& work) {
+  std::vector<bool> still;
+  std::string carrier;
+  for (const auto& motion : motions) {
+    still.push_back(stands_still(*motion));
+    if (!still.back() || !carrier.empty()) continue;
+    if (const int joint = carrier_of(*motion); joint > 0)
+      carrier = motion->skeleton().joints[static_cast<std::size_t>(joint)].name;
+  }
+  for (std::size_t i = 0; i < motions.size() && !carrier.empty(); ++i)
+    if (const int joint = motions[i]->skeleton().find(carrier); still[i] && joint > 0)
+      motions[i] = carried_by(motions[i], joint, work);
+  return motions;
 }
 
 }  // namespace kinegraph

@@ -1,6 +1,7 @@
 #include "graph/compute.h"
 #include "graph/node_type.h"
 #include "nodes/motion/joint_pattern.h"
+#include "nodes/motion/moving_root.h"
 #include "nodes/node_params.h"
 #include "nodes/style/quat_stats.h"
 
@@ -28,8 +29,10 @@ NodeType quat_stats_node() {
              "what is averaged");
   add_joints_param(type);
   add_range_param(type);
+  type.code_version = 2;
   type.compute = [](Compute& compute) {
-    const auto& motion = compute.input<Motion>("motion");
+    const auto told = with_moving_root(compute.shared_input<Motion>("motion"), compute.work());
+    const Motion& motion = *told;
     const Params& params = compute.params();
     QuatStatsParams settings;
     settings.mean = params.text("mean") == "slerp" ? MeanKind::slerp : MeanKind::karcher;

@@ -1,6 +1,7 @@
 #include "graph/compute.h"
 #include "graph/node_type.h"
 #include "nodes/motion/joint_pattern.h"
+#include "nodes/motion/moving_root.h"
 #include "nodes/node_params.h"
 #include "nodes/style/style_transfer.h"
 
@@ -85,9 +86,10 @@ NodeType style_transfer_node() {
   add_fade_param(type);
   add_amount_param(type);
   add_map_param(type);
-  type.code_version = 5;
+  type.code_version = 6;
   type.compute = [](Compute& compute) {
-    const auto& motion = compute.input<Motion>("motion");
+    const auto told = with_moving_root(compute.shared_input<Motion>("motion"), compute.work());
+    const Motion& motion = *told;
     const StyleTransferParams settings = settings_of(compute.params(), motion, compute.work());
     StyleTransferResult result =
         style_transfer(motion, compute.input<Stats>("style"), compute.optional_input<Stats>("own"), settings,

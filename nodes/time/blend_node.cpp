@@ -1,6 +1,7 @@
 #include "graph/compute.h"
 #include "graph/node_type.h"
 #include "nodes/motion/joint_pattern.h"
+#include "nodes/motion/moving_root.h"
 #include "nodes/node_params.h"
 #include "nodes/time/blend.h"
 
@@ -25,13 +26,19 @@ NodeType blend_node() {
   add_range_param(type);
   add_fade_param(type);
   add_map_param(type);
+  type.code_version = 2;
   type.compute = [](Compute& compute) {
-    const auto& motion = compute.input<Motion>("motion");
-    const auto& other = compute.input<Motion>("other");
+    auto motion_of = compute.shared_input<Motion>("motion"), other_of = compute.shared_input<Motion>("other");
     const Params& params = compute.params();
     Work& work = compute.work();
-    check_same_rate(motion.fps(), other.fps(), "motion", "other");
-    auto joints = chosen_joints(params.text("joints"), motion.skeleton(), "joints", work);
+    check_same_rate(motion_of->fps(), other_of->fps(), "motion", "other");
+    auto joints = chosen_joints(params.text("joints"), motion_of->skeleton(), "joints", work);
+    if (joints[0]) {
+      const auto both = with_moving_roots({motion_of, other_of}, work);
+      motion_of = both[0];
+      other_of = both[1];
+    }
+    const Motion &motion = *motion_of, &other = *other_of;
     auto weights = change_weights(params, motion.frames(), motion.fps());
     for (double& w : weights) w *= params.number("weight");
     auto partner = partners(other.skeleton(), motion.skeleton(), params.texts("map"));

@@ -1,5 +1,6 @@
 #include "graph/compute.h"
 #include "graph/node_type.h"
+#include "nodes/motion/moving_root.h"
 #include "nodes/time/concatenate.h"
 
 namespace kinegraph {
@@ -19,13 +20,17 @@ NodeType concatenate_node() {
       "Where each motion after the first begins.");
   type.param("blend", number(0).between(0, 3600).in("s").slider(0, 1),
              "How long neighbours overlap and fade into each other; 0 = one frame after the other.");
+  type.code_version = 2;
   type.compute = [](Compute& compute) {
-    std::vector<const Motion*> motions;
-    for (const ValuePtr& value : compute.values("motions"))
-      motions.push_back(&dynamic_cast<const Motion&>(*value));
     ConcatenateSettings settings;
     settings.align_root = compute.params().text("align") == "root";
     settings.blend = compute.params().number("blend");
+    std::vector<std::shared_ptr<const Motion>> given;
+    for (const ValuePtr& value : compute.values("motions"))
+      given.push_back(std::dynamic_pointer_cast<const Motion>(value));
+    if (settings.align_root && given.size() > 1) given = with_moving_roots(std::move(given), compute.work());
+    std::vector<const Motion*> motions;
+    for (const auto& motion : given) motions.push_back(motion.get());
     compute.output("motion", concatenated(motions, settings, compute.work()));
   };
   return type;

@@ -1,5 +1,6 @@
 #include "graph/compute.h"
 #include "graph/node_type.h"
+#include "nodes/motion/moving_root.h"
 #include "nodes/node_params.h"
 #include "nodes/time/time_warp.h"
 
@@ -7,8 +8,9 @@ namespace kinegraph {
 namespace {
 
 void compute(Compute& node) {
-  const auto& source = node.input<Motion>("source");
-  const auto& reference = node.input<Motion>("reference");
+  const auto told = with_moving_root(node.shared_input<Motion>("source"), node.work());
+  const auto told_reference = with_moving_root(node.shared_input<Motion>("reference"), node.work());
+  const Motion &source = *told, &reference = *told_reference;
   check_same_rate(source.fps(), reference.fps(), "source", "reference");
   const Params& params = node.params();
   TimeWarpSettings settings;
@@ -85,7 +87,7 @@ NodeType time_warp_node() {
   type.param("tolerance", number(defaults.tolerance).between(0, 1).slider(0, 0.1),
              "Stops when scale and offset change by less.");
   add_map_param(type);
-  type.code_version = 3;
+  type.code_version = 4;
   type.compute = compute;
   return type;
 }
