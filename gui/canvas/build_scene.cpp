@@ -63,6 +63,10 @@ Json json_of(QPointF point) {
   return Json::Array{std::round(point.x()), std::round(point.y())};
 }
 
+QString entries(std::size_t count) {
+  return count == 1 ? QObject::tr("1 entry") : QObject::tr("%1 entries").arg(count);
+}
+
 QString shown_value(const ParamType& type, const Json& value) {
   using Kind = ParamType::Kind;
   const QString unit = type.unit.empty() ? QString() : " " + QString::fromStdString(type.unit);
@@ -82,10 +86,9 @@ QString shown_value(const ParamType& type, const Json& value) {
   if (value.is_array()) {
     if (value.array().size() == 1 && value.array()[0].is_string())
       return QString::fromStdString(value.array()[0].string());
-    return QObject::tr("%n entries", nullptr, static_cast<int>(value.array().size()))
-        .replace("1 entries", "1 entry");
+    return entries(value.array().size());
   }
-  if (value.is_object()) return QObject::tr("%1 entries").arg(value.object().size());
+  if (value.is_object()) return entries(value.object().size());
   return {};
 }
 

@@ -170,7 +170,7 @@ void GraphCanvas::paint_mini_map(QPainter& p) {
   for (const SceneNode& node : scene_.nodes()) {
     const QRectF box(place(node.rect.topLeft()), QSizeF(std::max(2.0, node.rect.width() * scale),
                                                         std::max(2.0, node.rect.height() * scale)));
-    p.fillRect(box, session_.selected().count(node.name) ? theme_->accent : theme_->wire);
+    p.fillRect(box, session_.selected().count(node.name) ? theme_->accent : family_color(*theme_, node));
   }
   p.setPen(QPen(theme_->accent, 1));
   p.setBrush(Qt::NoBrush);

@@ -195,8 +195,9 @@ void GraphCanvas::edit_text(QRectF graph, const QString& text, std::function<voi
   edit->setPlainText(text);
   edit->selectAll();
   const QRect place = QRectF(to_view(graph.topLeft()), to_view(graph.bottomRight())).toRect();
+  const int words = std::clamp(edit->fontMetrics().horizontalAdvance(text) + 48, 110, 160);
   edit->setGeometry(
-      QRect(place.topLeft(), QSize(std::max(160, place.width()), std::max(36, place.height()))));
+      QRect(place.topLeft(), QSize(std::max(words, place.width()), std::max(30, place.height()))));
   edit->setToolTip(tr("Ctrl+Enter or a click beside it keeps the text, Escape leaves it as it was"));
   edit->show();
   edit->setFocus();

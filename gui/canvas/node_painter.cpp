@@ -256,47 +256,55 @@ void draw_state(QPainter& p, QPointF at, double radius, const QColor& color, Nod
   p.drawEllipse(at, radius, radius);
 }
 
-// What a node shows from afar: its name, at least 9 pixels on the screen where it fits, its type where there
-// is room, its still, and its state as a dot.
+// What a node shows from afar: its name, at least 9 pixels on the screen, its type and its still where there
+// is room, and its state as a dot in the corner, where it never meets the name.
 void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, NodeStatus::State state,
                 bool bad, std::optional<Severity> problem, const QRectF& box, const QColor& ink,
                 const Theme& theme, double zoom) {
-  const double dot = std::clamp(3.5 / zoom, 5.0, box.height() / 5), left = std::max(11.0, 6 / zoom);
+  const double pixel = 1 / zoom, top_edge = 3 * pixel;
+  const double dot = std::clamp(3.4 * pixel, 5.0, box.height() / 5);
+  const double left = std::max(11.0, 6 * pixel);
   const bool with_dot = state != NodeStatus::State::idle || bad;
+  const QPointF corner_dot(box.right() - 2.3 * dot, top_edge + 2 * dot);
   const QString name = QString::fromStdString(node.name);
   const auto wide = [&](double at) { return QFontMetricsF(font_of(at, true)).horizontalAdvance(name); };
-  // The dot stands beside the name, or in the corner above a name that needs the room.
-  const double smallest = 8.5 / zoom, full = box.width() - 1.6 * left;
-  const bool in_corner = with_dot && wide(smallest) > full - 4.2 * dot;
   const Still* known = status ? status->still.get() : nullptr;
   const bool with_still = !node.still.isNull() && zoom >= 0.3 && known && !known->limbs.empty();
-  QRectF words(left, 3 / zoom, with_dot && !in_corner ? full - 4.2 * dot : full, box.height() - 3 / zoom);
-  if (with_still) {
-    const double height = std::min(1.15 * node.still.height(), box.height() * 0.5);
-    const QRectF still(8, box.height() - 7 - height, box.width() - 16, height);
-    words.setBottom(still.top());
-    draw_still(p, still, known, {}, theme);
-  }
-  // A long name is written smaller before letters are left out.
-  double pixels = std::clamp(11 / zoom, 14.0, 44.0);
-  if (const double needs = wide(pixels); needs > words.width())
-    pixels = std::max(std::min(pixels, smallest), pixels * words.width() / needs * 0.99);
-  const double type_pixels = 9 / zoom, line = pixels * 1.3, type_line = type_pixels * 1.35;
-  const bool with_type = zoom >= 0.34 && words.height() >= line + type_line;
-  const double top = words.center().y() - (line + (with_type ? type_line : 0)) / 2;
-  const QRectF title(words.left(), top, words.width(), line);
+  const double largest = std::clamp(11 * pixel, 14.0, 44.0), smallest = 9.2 * pixel;
+  const double type_pixels = 9 * pixel, type_line = type_pixels * 1.35;
+  const double below = with_still ? 0.42 * box.height() : 0;
+  const double room = box.height() - top_edge - below;
+  const bool with_type = zoom >= 0.34 && room >= largest * 1.3 + type_line;
+  // A name of two sizes only: what fits in neither loses letters.
+  const auto beside_dot = [&](double pixels) {
+    const double high = pixels * 1.3 + (with_type ? type_line : 0);
+    const double top = with_still ? top_edge + 3 * pixel : top_edge + std::max(0.0, room - high) / 2;
+    const bool meets = with_dot && top + 0.25 * pixels < corner_dot.y() + dot;
+    return std::pair(top, box.width() - left - (meets ? 4 * dot : 5 * pixel));
+  };
+  double pixels = largest;
+  if (wide(pixels) > beside_dot(pixels).second) pixels = std::min(pixels, smallest);
+  const auto [top, across] = beside_dot(pixels);
+  const double line = pixels * 1.3;
   p.setFont(font_of(pixels, true));
   p.setPen(ink);
-  draw_text(p, title, Qt::AlignLeft, name);
+  draw_text(p, QRectF(left, top, across, line), Qt::AlignLeft, name);
+  double bottom = top + line;
   if (with_type) {
     p.setFont(font_of(type_pixels));
     p.setPen(theme.faint_text);
-    draw_text(p, QRectF(words.left(), top + line, box.width() - 2 * left, type_line), Qt::AlignLeft,
+    draw_text(p, QRectF(left, bottom, box.width() - left - 5 * pixel, type_line), Qt::AlignLeft,
               QString::fromStdString(node.type));
+    bottom += type_line;
+  }
+  if (with_still) {
+    const double free = box.height() - 7 - bottom - 3 * pixel;
+    const double high = std::min(free, 1.2 * node.still.height());
+    draw_still(p, QRectF(8, box.height() - 7 - high, box.width() - 16, high), known, {}, theme);
   }
   if (!with_dot) return;
   const bool plain = !bad && !has_warning(status, problem);
-  draw_state(p, QPointF(box.right() - 3.2 * dot, in_corner ? 3 / zoom + 1.6 * dot : title.center().y()), dot,
+  draw_state(p, corner_dot, dot,
              plain ? state_color(theme, state)
              : bad ? theme.error
                    : theme.warning,

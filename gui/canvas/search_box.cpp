@@ -72,7 +72,7 @@ SearchBox::SearchBox(QWidget* parent) : QFrame(parent) {
   connect(list_, &QListWidget::itemClicked, this, [this] { choose(); });
   connect(list_, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
     help_->setText(item ? entries_[std::size_t(item->data(index_role).toInt())].help
-                        : tr("Nothing of that name."));
+                        : tr("Nothing goes by that name."));
   });
   hide();
 }
@@ -116,14 +116,16 @@ void SearchBox::filter() {
     list_->addItem(item);
   }
   const int row = list_->fontMetrics().height() + 8;
-  list_->setFixedHeight(std::clamp(list_->count(), 1, rows_seen) * row + 4);
+  list_->setFixedHeight(std::min(list_->count(), rows_seen) * row + 4);
+  list_->setVisible(list_->count() > 0);
+  help_->setFixedHeight(fontMetrics().lineSpacing() * (list_->count() > 0 ? 3 : 1) + 4);
   help_->setVisible(list_->count() == 0 || std::any_of(entries_.begin(), entries_.end(),
                                                        [](const Entry& e) { return !e.help.isEmpty(); }));
   resize(340, layout()->sizeHint().height());
   if (list_->count())
     list_->setCurrentRow(0);
   else
-    help_->setText(tr("Nothing of that name."));
+    help_->setText(tr("Nothing goes by that name."));
 }
 
 void SearchBox::choose() {

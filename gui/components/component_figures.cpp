@@ -1,5 +1,7 @@
 #include "gui/components/component_figures.h"
 
+#include <QMap>
+#include <QRegularExpression>
 #include <QStringList>
 #include <algorithm>
 #include <cmath>
@@ -48,6 +50,23 @@ ComponentSegment start_of(const ComponentSegment& segment, std::size_t frames) {
   return part;
 }
 
+// "RightToeBase, LeftToeBase, RightFoot" as "L+R ToeBase, R Foot".
+QString shortened(const QStringList& joints) {
+  static const QRegularExpression sided("^(Left|Right|left|right)[_ .]?(?=[A-Z0-9a-z])");
+  QStringList parts;
+  QMap<QString, QString> sides;
+  for (const QString& joint : joints) {
+    const QRegularExpressionMatch side = sided.match(joint);
+    const QString part = side.hasMatch() ? joint.mid(side.capturedLength()) : joint;
+    if (!parts.contains(part)) parts << part;
+    if (side.hasMatch()) sides[part] += side.captured(1).left(1).toUpper();
+  }
+  for (QString& part : parts)
+    if (const QString side = sides.value(part); !side.isEmpty())
+      part = (side.size() > 1 ? QStringLiteral("L+R ") : side + ' ') + part;
+  return parts.join(", ");
+}
+
 std::shared_ptr<const ShownMotion> figure_of(const Components& components, const ComponentSegment& part,
                                              std::size_t entry, Work& work) {
   const Rows x = channels_from_signals(components, signals_of(components, part), {entry});
@@ -91,6 +110,7 @@ std::shared_ptr<const ComponentPicture> make_component_picture(const ValuePtr& v
     for (std::size_t i = 0; i < std::min(named_joints, moved.size()); ++i)
       words << QString::fromStdString(moved[i].label);
     figure.joints = words.join(", ");
+    figure.short_joints = shortened(words);
     figure.unique = components->unique.size() <= entry || components->unique[entry];
     const std::size_t step = std::max<std::size_t>(1, components->frames() / drawn_values);
     for (std::size_t t = 0; t < components->frames(); t += step)

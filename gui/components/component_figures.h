@@ -18,6 +18,7 @@ struct ComponentFigure {
   QString share;                              // "38.2 %"
   QString cadence;                            // "1.0 Hz"; empty: no steady one
   QString joints;                             // those that move most: "LeftArm, RightArm"
+  QString short_joints;                       // the same for a small place: "L+R Arm"
   std::vector<float> signal;                  // over all segments, at most some 600 values
   bool unique = true;
 };

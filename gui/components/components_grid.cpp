@@ -2,6 +2,7 @@
 
 #include <QMouseEvent>
 #include <QPainter>
+#include <QPainterPath>
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,9 @@
 namespace kinegraph {
 namespace {
 constexpr int least_width = 142, most_width = 230, least_height = 150, most_height = 300, gap = 8;
-constexpr int head = 24, caption = 20, signal_height = 36;
+constexpr int head = 22, caption = 20, signal_height = 34;
 constexpr int playing_ms = 50;
-constexpr float closeness = 0.84f;  // than a sphere around it needs: a figure is slender
+constexpr int looks_at_each = 12;  // moments of a figure that the camera takes in
 }  // namespace
 
 ComponentsGrid::ComponentsGrid(QWidget* parent) : QWidget(parent), theme_(&dark_theme()), maker_(this) {
@@ -39,6 +40,7 @@ void ComponentsGrid::set_picture(std::shared_ptr<const ComponentPicture> picture
   if (picture == picture_) return;
   const bool other_size = !picture || !picture_ || picture->figures.size() != picture_->figures.size();
   picture_ = std::move(picture);
+  find_reach();
   if (other_size) {
     chosen_.clear();
     current_ = 0;
@@ -48,6 +50,21 @@ void ComponentsGrid::set_picture(std::shared_ptr<const ComponentPicture> picture
   updateGeometry();
   ask();
   update();
+}
+
+// Where the points of all figures go, each counted from the middle of its own box.
+void ComponentsGrid::find_reach() {
+  reach_.clear();
+  if (!picture_) return;
+  for (const ComponentFigure& figure : picture_->figures) {
+    if (!figure.motion) continue;
+    const ShownMotion& motion = *figure.motion;
+    const SceneBox box = box_of(motion);
+    for (int k = 0; k < looks_at_each; ++k)
+      for (int point = 0; point < motion.points; ++point)
+        if (const auto& p = motion.at(k * (motion.frames - 1) / (looks_at_each - 1), point); !std::isnan(p.x))
+          reach_.push_back(QVector3D(p.x, p.y, p.z) - (box.low + box.high) / 2);
+  }
 }
 
 void ComponentsGrid::set_badges(std::vector<QString> badges) {
@@ -88,7 +105,7 @@ QRect ComponentsGrid::tile(int component) const {
 }
 
 QRect ComponentsGrid::figure_part(const QRect& tile) const {
-  return tile.adjusted(1, head, -1, -caption - signal_height - 4);
+  return tile.adjusted(1, 1, -1, -caption - signal_height - 4);
 }
 
 void ComponentsGrid::set_room(int height) {
@@ -133,11 +150,10 @@ void ComponentsGrid::ask() {
     const double length = figure.motion->frames / figure.motion->fps;
     add_motion(cell.scene, *figure.motion, std::fmod(seconds, std::max(0.01, length)), looks, *theme_);
     const SceneBox box = box_of(*figure.motion);
-    if (all.cells.empty()) {
-      all.camera.frame(box.low, box.high);
-      all.camera.distance *= closeness;
-    }
-    cell.scene.camera_shift = (box.low + box.high) / 2 - all.camera.target;
+    if (all.cells.empty())
+      all.camera.frame_closely(reach_, static_cast<float>(0.02 * figure.motion->size),
+                               part.width() / std::max(1.0, part.height()));
+    cell.scene.camera_shift = (box.low + box.high) / 2;
     all.cells.push_back(std::move(cell));
   }
   if (all.cells.empty()) return;
@@ -182,15 +198,21 @@ void ComponentsGrid::paintEvent(QPaintEvent* event) {
     if (!event->rect().intersects(whole)) continue;
     const ComponentFigure& figure = picture_->figures[static_cast<std::size_t>(i)];
     const bool is_chosen = chosen_.count(i) > 0;
-    painter.setPen(QPen(is_chosen ? theme_->accent : theme_->line, is_chosen ? 2 : 1));
-    painter.setBrush(theme_->raised);
-    painter.drawRoundedRect(QRectF(whole).adjusted(1, 1, -1, -1), 5, 5);
+    QPainterPath card;
+    card.addRoundedRect(QRectF(whole).adjusted(1, 1, -1, -1), 5, 5);
+    painter.fillPath(card, theme_->raised);
     const QRect part = figure_part(whole);
     if (!image_.isNull() && figure.motion) {
       const double ratio = static_cast<double>(image_.width()) / std::max(1, width());
       const QRectF from(part.x() * ratio, part.y() * ratio, part.width() * ratio, part.height() * ratio);
-      painter.drawImage(QRectF(part).adjusted(1, 0, -1, 0), image_, from);
+      painter.save();
+      painter.setClipPath(card);
+      painter.drawImage(QRectF(part), image_, from);
+      painter.restore();
     }
+    painter.setPen(QPen(is_chosen ? theme_->accent : theme_->line, is_chosen ? 2 : 1));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawPath(card);
     QFont bold = font();
     bold.setBold(true);
     painter.setFont(bold);
@@ -199,14 +221,15 @@ void ComponentsGrid::paintEvent(QPaintEvent* event) {
     painter.drawText(title, Qt::AlignVCenter | Qt::AlignLeft, QString("u%1").arg(i + 1));
     painter.setFont(font());
     painter.setPen(theme_->faint_text);
-    QString right = figure.share;
-    if (!figure.cadence.isEmpty()) right = figure.cadence + "  " + right;
-    if (!figure.unique) right += QStringLiteral("  ?");
-    painter.drawText(title, Qt::AlignVCenter | Qt::AlignRight, right);
+    painter.drawText(title, Qt::AlignVCenter | Qt::AlignRight,
+                     figure.unique ? figure.share : figure.share + QStringLiteral(" ?"));
+    painter.drawText(title.translated(0, fontMetrics().height() + 1), Qt::AlignVCenter | Qt::AlignRight,
+                     figure.cadence);
     const QString badge =
         static_cast<std::size_t>(i) < badges_.size() ? badges_[static_cast<std::size_t>(i)] : QString();
     if (!badge.isEmpty()) {
-      const QRectF plate(part.left() + 6, part.top() + 4, fontMetrics().horizontalAdvance(badge) + 12, 18);
+      const QRectF plate(part.left() + 7, part.top() + head + 2, fontMetrics().horizontalAdvance(badge) + 12,
+                         18);
       painter.setPen(Qt::NoPen);
       painter.setBrush(theme_->selection);
       painter.drawRoundedRect(plate, 3, 3);
@@ -216,7 +239,7 @@ void ComponentsGrid::paintEvent(QPaintEvent* event) {
     painter.setPen(theme_->text);
     const QRect words(whole.left() + 9, part.bottom() + 2, whole.width() - 18, caption);
     painter.drawText(words, Qt::AlignVCenter | Qt::AlignLeft,
-                     fontMetrics().elidedText(figure.joints, Qt::ElideRight, words.width()));
+                     fontMetrics().elidedText(figure.short_joints, Qt::ElideRight, words.width()));
     paint_signal(painter, figure,
                  QRectF(whole.left() + 9, words.bottom() + 1, whole.width() - 18, signal_height - 6));
     if (hasFocus() && i == current_) {

@@ -4,6 +4,7 @@
 #include <QElapsedTimer>
 #include <QImage>
 #include <QTimer>
+#include <QVector3D>
 #include <QWidget>
 #include <memory>
 #include <set>
@@ -53,12 +54,14 @@ class ComponentsGrid : public QWidget {
   int tile_width() const;
   QRect figure_part(const QRect& tile) const;
   void ask();
+  void find_reach();
   void paint_signal(QPainter& painter, const ComponentFigure& figure, const QRectF& where);
 
   std::shared_ptr<const ComponentPicture> picture_;
   std::vector<QString> badges_;
   const Theme* theme_;
   PictureMaker maker_;
+  std::vector<QVector3D> reach_;
   QImage image_;
   QTimer playing_;
   QElapsedTimer clock_;

@@ -16,6 +16,7 @@
 #include "graph/edit.h"
 #include "gui/components/component_edits.h"
 #include "gui/components/components_grid.h"
+#include "gui/document/problem_text.h"
 #include "gui/viewing/looked_at.h"
 
 namespace kinegraph {
@@ -116,7 +117,7 @@ QWidget* ComponentsPanel::build_controls() {
   to_->setAccessibleName(tr("Clip that receives"));
   for (QComboBox* one : {from_, to_}) {
     one->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    one->setMinimumContentsLength(7);
+    one->setMinimumContentsLength(6);
   }
   arrow_ = new QLabel(QStringLiteral("→"), box);
   transfer_ = new QPushButton(tr("Transfer"), box);
@@ -289,9 +290,9 @@ void ComponentsPanel::take_values() {
       empty_->setText(tr("%1 isn't linked yet.\nLink motions to it: it finds the movements they are made of.")
                           .arg(QString::fromStdString(components_.node)));
     } else if (status && status->state == NodeStatus::State::failed && !status->diagnostics.empty()) {
-      empty_->setText(tr("%1 failed.\n%2")
-                          .arg(QString::fromStdString(components_.node),
-                               QString::fromStdString(status->diagnostics.front().message)));
+      empty_->setText(
+          tr("%1 failed.\n%2")
+              .arg(QString::fromStdString(components_.node), problem_text(status->diagnostics.front())));
     } else if (status && status->state == NodeStatus::State::blocked) {
       empty_->setText(tr("%1 waits for a node before it that failed or is not linked. Problems tells which.")
                           .arg(QString::fromStdString(components_.node)));
@@ -388,8 +389,8 @@ void ComponentsPanel::tell_edits() {
   QString which;
   for (int component : chosen()) which += (which.isEmpty() ? "u" : ", u") + QString::number(component);
   const QString where = edit_node_.empty() ? tr("a new ComponentEdit") : QString::fromStdString(edit_node_);
-  QString words = any ? tr("%1: edits go to %2").arg(which, where)
-                      : tr("Click a component to edit it; Ctrl-click for several");
+  QString words =
+      any ? tr("%1: edits go to %2").arg(which, where) : tr("Click a figure; Ctrl+click takes several");
   if (const std::string done = told(edits()); !done.empty())
     words += QStringLiteral("   ·   ") + tr("so far: %1").arg(QString::fromStdString(done));
   told_->setText(fontMetrics().elidedText(words, Qt::ElideRight, std::max(160, told_->width())));

@@ -2,12 +2,27 @@
 
 #include <QFileInfo>
 #include <QObject>
+#include <QRegularExpression>
 
 namespace kinegraph {
 namespace {
 
 bool of_a_clip(const Diagnostic& problem) {
   return !problem.file.empty() && !QString::fromStdString(problem.file).endsWith(".kg.json");
+}
+
+// Quotes as the editor's own words have them: what stands in "", '' or `` between words.
+QString with_quotes(const QString& text) {
+  static const QRegularExpression plain(R"(\"([^\"\n]*)\"|`([^`\n]*)`|(?<![\w'])'([^'\n]*)'(?![\w']))");
+  QString quoted;
+  qsizetype from = 0;
+  for (auto found = plain.globalMatch(text); found.hasNext();) {
+    const QRegularExpressionMatch one = found.next();
+    quoted += text.mid(from, one.capturedStart() - from) + "“" + one.captured(1) + one.captured(2) +
+              one.captured(3) + "”";
+    from = one.capturedEnd();
+  }
+  return quoted + text.mid(from);
 }
 
 // As a person writes: a capital at the start, where that is a word and no name, and a stop at the end.
@@ -23,7 +38,7 @@ QString sentence(QString text) {
 }  // namespace
 
 QString problem_text(const Diagnostic& problem) {
-  QString text = QString::fromStdString(problem.message);
+  QString text = with_quotes(QString::fromStdString(problem.message));
   if (!problem.joint.empty()) text += QObject::tr(", joint %1").arg(QString::fromStdString(problem.joint));
   if (problem.frame) text += QObject::tr(", frame %1").arg(*problem.frame);
   if (of_a_clip(problem) && problem.place.line > 0) {
@@ -46,7 +61,7 @@ QString place_of(const Diagnostic& problem) {
 QString advice_on(const Diagnostic& problem) {
   if (problem.code == "missing-file")
     return QObject::tr("Choose another file, or let “Find missing files…” (Ctrl+Shift+R) look for it.");
-  const QString hint = sentence(QString::fromStdString(problem.hint));
+  const QString hint = sentence(with_quotes(QString::fromStdString(problem.hint)));
   if (!hint.isEmpty() || !of_a_clip(problem) || problem.severity != Severity::error) return hint;
   const QString name = QFileInfo(QString::fromStdString(problem.file)).fileName();
   return problem.place.line > 0

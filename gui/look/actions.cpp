@@ -143,13 +143,14 @@ std::span<const MouseRow> mouse_gestures() {
 QString help_page(const Theme& theme) {
   QString page = "<table cellspacing=2 width='100%'>";
   // Keys stand on a ground of their own, as on caps.
+  const QString cap = (theme.dark ? theme.line : theme.node_title.darker(106)).name();
   const auto line = [&](const QString& keys, const QString& name, const QString& what) {
     return QString(
-               "<tr><td bgcolor='%1' style='padding: 3px 8px'>%2</td>"
+               "<tr><td style='padding: 3px 8px'><span style='background-color: "
+               "%1'>&nbsp;%2&nbsp;</span></td>"
                "<td style='padding: 3px 8px 3px 12px'>%3</td>"
                "<td style='padding: 3px 6px; color: %4'>%5</td></tr>")
-        .arg(theme.raised.name(), keys.toHtmlEscaped(), name.toHtmlEscaped(), theme.faint_text.name(),
-             what.toHtmlEscaped());
+        .arg(cap, keys.toHtmlEscaped(), name.toHtmlEscaped(), theme.faint_text.name(), what.toHtmlEscaped());
   };
   const std::pair<Where, QString> places[] = {{Where::window, QObject::tr("Everywhere")},
                                               {Where::graph, QObject::tr("In the graph")},
@@ -166,10 +167,10 @@ QString help_page(const Theme& theme) {
   QStringList lines;
   const auto gesture = [&](const MouseRow& row) {
     return QString(
-               "<tr><td bgcolor='%1' style='padding: 3px 8px'>%2</td>"
+               "<tr><td style='padding: 3px 8px'><span style='background-color: "
+               "%1'>&nbsp;%2&nbsp;</span></td>"
                "<td colspan=2 style='padding: 3px 8px 3px 12px'>%3</td></tr>")
-        .arg(theme.raised.name(), QObject::tr(row.gesture).toHtmlEscaped(),
-             QObject::tr(row.what).toHtmlEscaped());
+        .arg(cap, QObject::tr(row.gesture).toHtmlEscaped(), QObject::tr(row.what).toHtmlEscaped());
   };
   for (const MouseRow& row : gestures) lines << gesture(row);
   return page + section(QObject::tr("With the mouse"), lines) + "</table>";

@@ -32,7 +32,12 @@ QString chosen(QFileDialog& dialog, const QString& start, const QString& filter)
     if (auto* list = dialog.findChild<QListView*>("listView"))
       QObject::connect(name, &QLineEdit::textEdited, list, [list] { list->selectionModel()->clear(); });
   }
-  if (auto* split = dialog.findChild<QSplitter*>("splitter")) split->setSizes({150, 590});
+  if (auto* split = dialog.findChild<QSplitter*>("splitter")) {
+    split->setSizes({150, 590});
+    split->setHandleWidth(6);
+  }
+  if (auto* places = dialog.findChild<QListView*>("sidebar")) places->setIconSize({16, 16});
+  dialog.setSizeGripEnabled(false);
   return dialog.exec() && !dialog.selectedFiles().isEmpty() ? dialog.selectedFiles().first() : QString();
 }
 

@@ -27,6 +27,8 @@ std::optional<Sign> sign_of(QStyle::StandardPixmap standard) {
       return Sign::warning;
     case QStyle::SP_MessageBoxCritical:
       return Sign::error;
+    case QStyle::SP_DialogApplyButton:
+      return Sign::done;
     case QStyle::SP_TitleBarNormalButton:
     case QStyle::SP_TitleBarMaxButton:
       return Sign::dock_out;

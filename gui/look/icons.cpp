@@ -145,10 +145,12 @@ void draw(QPainter& p, Sign sign, const Theme& theme) {
     case Sign::info:
     case Sign::question:
     case Sign::warning:
-    case Sign::error: {
+    case Sign::error:
+    case Sign::done: {
       // A badge in the colour of what is said, with its letter cut out of it.
       const QColor color = sign == Sign::error     ? theme.error
                            : sign == Sign::warning ? theme.warning
+                           : sign == Sign::done    ? theme.good
                                                    : theme.accent;
       p.setPen(Qt::NoPen);
       p.setBrush(color);
@@ -161,6 +163,8 @@ void draw(QPainter& p, Sign sign, const Theme& theme) {
         hook.cubicTo(10.1, 7.6, 8, 7.6, 8, 9.3);
         p.drawPath(hook);
         p.drawPoint(QPointF(8, 12));
+      } else if (sign == Sign::done) {
+        p.drawPolyline(QPolygonF({{4.8, 8.3}, {7.1, 10.6}, {11.2, 5.6}}));
       } else if (sign == Sign::info) {
         p.drawPoint(QPointF(8, 4.6));
         p.drawLine(QPointF(8, 7.6), QPointF(8, 11.6));

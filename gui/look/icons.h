@@ -40,7 +40,8 @@ enum class Sign {
   info,
   question,
   warning,
-  error
+  error,
+  done
 };
 QIcon icon(Sign sign, const Theme& theme);
 

@@ -175,6 +175,8 @@ kinegraph--ParamField QToolButton:hover { border-color: %5; }
 QToolButton#row_menu { padding: 2px 0px; color: %7; }
 QToolButton#row_menu:hover { color: %4; }
 QFileDialog QToolButton { padding: 3px; }
+QSplitter::handle { background: transparent; image: none; }
+QPushButton:default:disabled { border-color: %3; }
 QLabel#faint { color: %7; }
 QLabel#param_help { color: %7; border-top: 1px solid %3; padding-top: 6px; }
 QLabel#node_state { background: %2; border-radius: 4px; padding: 6px 8px; }
@@ -182,7 +184,10 @@ QMessageBox QLabel#qt_msgbox_label { font-weight: 600; min-width: 300px; }
 QMessageBox QLabel#qt_msgboxex_icon_label { margin: 2px 6px 0px 6px; }
 QLineEdit#node_name { font-weight: 600; }
 QFrame#search_box { background: %2; border: 1px solid %5; border-radius: 6px; }
-QFrame#notice_bar { background: %2; border-bottom: 2px solid %5; }
+QFrame#notice_bar { background: %8; border: none; border-left: 3px solid %5; }
+QFrame#notice_bar[kind="good"] { border-left-color: %10; }
+QFrame#notice_bar[kind="warning"] { border-left-color: %11; }
+QFrame#notice_bar[kind="error"] { border-left-color: %12; }
 QScrollArea#parameter_rows, QScrollArea#parameter_rows > QWidget > QWidget { background: transparent; }
 QScrollArea#examples, QScrollArea#examples > QWidget > QWidget { background: transparent; }
 QCheckBox { spacing: 6px; padding: 2px; border: 1px solid transparent; border-radius: 3px; }
@@ -225,7 +230,7 @@ QProgressBar { background: %8; border: 1px solid %3; border-radius: 4px; text-al
 QProgressBar::chunk { background: %5; border-radius: 3px; }
 )")
       .arg(c(window), c(raised), c(line), c(text), c(accent), c(selection), c(faint_text), c(panel))
-      .arg(c(dark ? text : raised));
+      .arg(c(dark ? text : raised), c(good), c(warning), c(error));
 }
 
 const Theme& dark_theme() {

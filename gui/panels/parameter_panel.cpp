@@ -48,12 +48,12 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
   stack->addWidget(none_);
   stack->addWidget(some_);
   auto* column = new QVBoxLayout(some_);
-  column->setContentsMargins(10, 10, 10, 8);
-  column->setSpacing(8);
+  column->setContentsMargins(10, 10, 10, 6);
+  column->setSpacing(6);
 
   auto* head = new QGridLayout;
   head->setHorizontalSpacing(8);
-  head->setVerticalSpacing(7);
+  head->setVerticalSpacing(6);
   name_ = new QLineEdit(some_);
   name_->setObjectName("node_name");
   name_->setAccessibleName(tr("Name of the node"));
@@ -117,9 +117,14 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
   show_node();
 }
 
-// Three lines, and the line above them.
+// Two lines, and the line above them; more only for what needs more.
 int ParameterPanel::help_height() const {
-  return fontMetrics().lineSpacing() * 3 + 12;
+  return fontMetrics().lineSpacing() * 2 + 12;
+}
+
+void ParameterPanel::tell_help(const QString& text) {
+  help_->setText(text);
+  help_->setFixedHeight(std::max(help_height(), help_->heightForWidth(help_->width())));
 }
 
 void ParameterPanel::set_theme(const Theme& theme) {
@@ -141,7 +146,9 @@ void ParameterPanel::show_node() {
   const bool some = found != session_.document().nodes.end();
   static_cast<QStackedLayout*>(layout())->setCurrentIndex(some ? 1 : 0);
   static_cast<QLabel*>(none_)->setText(session_.selected().size() > 1
-                                           ? tr("%1 nodes are selected.").arg(session_.selected().size())
+                                           ? tr("%1 nodes are selected.\nSelect one alone to see its "
+                                                "parameters.")
+                                                 .arg(session_.selected().size())
                                            : tr("Select a node to see its parameters."));
   if (!some) return;
   // Two Graph nodes may have different parameters, and one node others when its file changes.
@@ -162,15 +169,14 @@ void ParameterPanel::show_node() {
       build(*described);
     } else {
       node_type_.clear();
-      help_->clear();
-      auto* words = faint_label(
-          tr("This node's type is not known to this Kinegraph. It is kept as it is and saved back "
-             "unchanged; install the version that made it to run it."),
-          nullptr);
+      auto* words = faint_label(tr("It is saved back unchanged. Install the Kinegraph that made it, or what "
+                                   "it came with, to run it."),
+                                nullptr);
       words->setAlignment(Qt::AlignTop | Qt::AlignLeft);
       scroll_->setWidget(words);
     }
   }
+  help_->setVisible(described && !described->params.empty());
   refresh();
 }
 
@@ -231,9 +237,8 @@ void ParameterPanel::build(const NodeType& known) {
     connect(row.field, &ParamField::drag_started, &session_, &Session::begin_gesture);
     connect(row.field, &ParamField::drag_ended, &session_, &Session::end_gesture);
     connect(row.field, &ParamField::wrong, this, [this, name](const QString& why) {
-      help_->setText(
-          QString("<span style='color:%1'>%2</span>")
-              .arg(theme_->error.name(), (QString::fromStdString(name) + ": " + why).toHtmlEscaped()));
+      tell_help(QString("<span style='color:%1'>%2</span>")
+                    .arg(theme_->error.name(), (QString::fromStdString(name) + ": " + why).toHtmlEscaped()));
     });
     QToolButton* button = row.menu;
     connect(button, &QToolButton::clicked, this, [this, name, button] { open_menu(name, button); });
@@ -254,7 +259,7 @@ void ParameterPanel::build(const NodeType& known) {
     setTabOrder(before, child);
     before = child;
   }
-  help_->setText(known.params.empty() ? QString() : tr("Point at a parameter to read what it does."));
+  tell_help(tr("Point at a parameter to read what it does."));
 }
 
 void ParameterPanel::refresh() {
@@ -378,8 +383,7 @@ void ParameterPanel::open_menu(const std::string& param, QToolButton* button) {
     for (const ParamType::Choice& choice : description->choices)
       text += "<br><b>" + QString::fromStdString(choice.key).toHtmlEscaped() +
               "</b>: " + QString::fromStdString(choice.help).toHtmlEscaped();
-    help_->setText(text);
-    help_->setFixedHeight(std::max(help_height(), help_->heightForWidth(help_->width()) + 8));
+    tell_help(text);
   });
   menu.exec(button->mapToGlobal(QPoint(0, button->height())));
 }
@@ -387,8 +391,7 @@ void ParameterPanel::open_menu(const std::string& param, QToolButton* button) {
 bool ParameterPanel::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::FocusIn || event->type() == QEvent::Enter) {
     if (const QVariant help = watched->property("help"); help.isValid()) {
-      help_->setFixedHeight(help_height());
-      help_->setText(help.toString().toHtmlEscaped());
+      tell_help(help.toString().toHtmlEscaped());
     }
     if (event->type() == QEvent::FocusIn)
       if (auto* widget = qobject_cast<QWidget*>(watched)) scroll_->ensureWidgetVisible(widget, 10, 10);

@@ -40,6 +40,7 @@ class ParameterPanel : public QWidget {
   void refresh();
   void refresh_state();
   int help_height() const;
+  void tell_help(const QString& text);
   void open_menu(const std::string& param, QToolButton* button);
   void set(const std::string& param, const Json& value);
   void publish(const std::string& param, bool on);

@@ -142,6 +142,13 @@ class TableField : public ParamField {
   }
   bool is_being_edited() const override { return adding_; }
 
+ protected:
+  // Only what is shown has its fonts and edges.
+  void showEvent(QShowEvent* event) override {
+    ParamField::showEvent(event);
+    fit();
+  }
+
  private:
   void set_cell(int row, int column, const QString& text) {
     table_->setItem(row, column, new QTableWidgetItem(text));
@@ -181,9 +188,11 @@ class TableField : public ParamField {
 
   void fit() {
     const int rows = std::clamp(table_->rowCount(), 1, most_rows_seen);
-    table_->setFixedHeight(
-        rows * table_->verticalHeader()->defaultSectionSize() +
-        (table_->horizontalHeader()->isVisible() ? table_->horizontalHeader()->sizeHint().height() : 0) + 4);
+    table_->setFixedHeight(rows * table_->verticalHeader()->defaultSectionSize() +
+                           (table_->horizontalHeader()->isVisibleTo(table_)
+                                ? table_->horizontalHeader()->sizeHint().height()
+                                : 0) +
+                           4);
     none_->setVisible(table_->rowCount() == 0);
   }
 

@@ -198,11 +198,16 @@ QString Timeline::why_not(const std::string& node) const {
   switch (status->state) {
     case State::failed:
     case State::missing:
-      return tr("failed: there is nothing to play");
+      return tr("failed, so there is nothing to play");
     case State::blocked:
       return tr("waits for a node before it");
     case State::incomplete:
       return tr("isn't linked yet");
+    case State::cancelled:
+      return tr("was cancelled");
+    case State::waiting:
+    case State::running:
+      return tr("is being evaluated…");
     default:
       return {};
   }

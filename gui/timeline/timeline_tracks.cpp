@@ -11,15 +11,31 @@
 namespace kinegraph {
 namespace {
 
-constexpr double ruler = 24, gutter = 96, right_edge = 14, gap = 6;
-constexpr double lane_pad = 3;  // around the contact bars of a row
-constexpr double handle = 6;    // pixels around an end of the range that take hold of it
+constexpr double ruler = 24, right_edge = 14, gap = 6;
+constexpr double least_gutter = 96, most_gutter = 200;  // where the rows' names stand
+constexpr double lane_pad = 3;                          // around the contact bars of a row
+constexpr double most_lane = 18, plain_row = 56, least_named_lane = 9;
+constexpr double handle = 6;  // pixels around an end of the range that take hold of it
 
 double nice_step(double least) {
   const double power = std::pow(10.0, std::floor(std::log10(std::max(1.0, least))));
   for (double factor : {1.0, 2.0, 5.0, 10.0})
     if (power * factor >= least) return power * factor;
   return power * 10;
+}
+
+QFont lane_font(const QFont& font, double lane) {
+  QFont small = font;
+  small.setPixelSize(std::clamp(static_cast<int>(lane) - 1, 9, 11));
+  return small;
+}
+
+QString lane_name(const FootPoint& point) {
+  return QObject::tr(point.left ? "L %1" : "R %1").arg(QString::fromStdString(point.part));
+}
+
+std::size_t lanes_of(const TimelineTracks::Row& row) {
+  return row.motion ? row.motion->contacts.points.size() : 0;
 }
 
 }  // namespace
@@ -38,7 +54,26 @@ TimelineTracks::TimelineTracks(Playback& playback, QWidget* parent)
 
 void TimelineTracks::set_rows(std::vector<Row> rows) {
   rows_ = std::move(rows);
+  fit_gutter();
   update();
+}
+
+// As wide as the longest name, and what its lanes are called beside it.
+void TimelineTracks::fit_gutter() {
+  lane_names_ = 0;
+  double names = 0;
+  const QFontMetricsF small(lane_font(font(), most_lane));
+  for (const Row& row : rows_) {
+    names = std::max(names, QFontMetricsF(font()).horizontalAdvance(row.name));
+    if (!row.motion) continue;
+    for (const FootPoint& point : row.motion->contacts.points)
+      lane_names_ = std::max(lane_names_, small.horizontalAdvance(lane_name(point)) + 8);
+  }
+  gutter_ = std::clamp(22 + names + 10 + lane_names_, least_gutter, most_gutter);
+}
+
+bool TimelineTracks::any_motion() const {
+  return std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.motion != nullptr; });
 }
 
 void TimelineTracks::set_warp(std::shared_ptr<const Warp> warp) {
@@ -63,12 +98,12 @@ int TimelineTracks::last_frame() const {
 
 double TimelineTracks::x_of(double frame) const {
   const double width_of_view = shown_ > 0 ? shown_ : last_frame();
-  return gutter + (frame - first_) / width_of_view * std::max(10.0, width() - gutter - right_edge);
+  return gutter_ + (frame - first_) / width_of_view * std::max(10.0, width() - gutter_ - right_edge);
 }
 
 double TimelineTracks::frame_at(double x) const {
   const double width_of_view = shown_ > 0 ? shown_ : last_frame();
-  return first_ + (x - gutter) / std::max(10.0, width() - gutter - right_edge) * width_of_view;
+  return first_ + (x - gutter_) / std::max(10.0, width() - gutter_ - right_edge) * width_of_view;
 }
 
 QRectF TimelineTracks::row_rect(std::size_t index) const {
@@ -76,7 +111,11 @@ QRectF TimelineTracks::row_rect(std::size_t index) const {
   const double between = warped ? std::clamp((height() - ruler) * 0.34, 26.0, 90.0) : gap;
   const double count = static_cast<double>(std::max<std::size_t>(1, rows_.size()));
   const double free = height() - ruler - 2 * gap - (warped ? between + (count - 2) * gap : (count - 1) * gap);
-  const double high = std::clamp(free / count, 8.0, 56.0);
+  std::size_t lanes = 0;
+  for (const Row& row : rows_) lanes = std::max(lanes, lanes_of(row));
+  const double most =
+      lanes > 0 ? std::max(plain_row, most_lane * static_cast<double>(lanes) + 2 * lane_pad) : plain_row;
+  const double high = std::clamp(free / count, 8.0, most);
   double top = ruler + gap;
   for (std::size_t i = 0; i < index; ++i) top += high + (warped && i == 0 ? between : gap);
   return QRectF(0, top, width(), high);
@@ -87,56 +126,61 @@ void TimelineTracks::paintEvent(QPaintEvent*) {
   painter.fillRect(rect(), theme_->panel);
   painter.setRenderHint(QPainter::Antialiasing);
   paint_ruler(painter);
+  if (!any_motion() && playback_.frames() == 0) {
+    QString words = tr("No motion is shown, so there is nothing to play.");
+    if (!rows_.empty() && !rows_.front().why_not.isEmpty())
+      words = tr("%1 %2").arg(rows_.front().name, rows_.front().why_not);
+    painter.setPen(theme_->faint_text);
+    painter.drawText(rect().adjusted(0, static_cast<int>(ruler), 0, 0), Qt::AlignCenter, words);
+    return paint_focus(painter);
+  }
   painter.save();
   for (std::size_t i = 0; i < rows_.size(); ++i) paint_row(painter, rows_[i], row_rect(i));
   if (warp_ && rows_.size() >= 2) paint_warp(painter, row_rect(0), row_rect(1));
   painter.restore();
-  if (rows_.empty()) {
-    painter.setPen(theme_->faint_text);
-    painter.drawText(rect().adjusted(0, static_cast<int>(ruler), 0, 0), Qt::AlignCenter,
-                     tr("No motion is shown, so there is nothing to play."));
-    return;
-  }
   // What lies outside the range is dimmed.
   if (playback_.has_range()) {
     QColor dim = theme_->window;
     dim.setAlpha(150);
     const double in = x_of(playback_.in()), out = x_of(playback_.out());
-    painter.fillRect(QRectF(gutter, ruler, std::max(0.0, in - gutter), height()), dim);
+    painter.fillRect(QRectF(gutter_, ruler, std::max(0.0, in - gutter_), height()), dim);
     painter.fillRect(QRectF(out, ruler, std::max(0.0, width() - out), height()), dim);
     painter.setPen(QPen(theme_->good, 2));
     painter.drawLine(QPointF(in, 4), QPointF(in, height()));
     painter.drawLine(QPointF(out, 4), QPointF(out, height()));
   }
   const double at = x_of(playback_.time() * playback_.fps());
-  if (at >= gutter - 1 && at <= width()) {
+  if (at >= gutter_ - 1 && at <= width()) {
     painter.setPen(QPen(theme_->accent, 1.5));
     painter.drawLine(QPointF(at, ruler - 4), QPointF(at, height()));
     const QString number = QString::number(playback_.frame());
     const double wide = painter.fontMetrics().horizontalAdvance(number) + 10;
-    const double left = std::clamp(at - wide / 2, gutter - 10, width() - wide - 1.0);
+    const double left = std::clamp(at - wide / 2, gutter_ - 10, width() - wide - 1.0);
     painter.setPen(Qt::NoPen);
     painter.setBrush(theme_->accent);
     painter.drawRoundedRect(QRectF(left, 3, wide, ruler - 7), 3, 3);
     painter.setPen(theme_->dark ? theme_->window : Qt::white);
     painter.drawText(QRectF(left, 3, wide, ruler - 7), Qt::AlignCenter, number);
   }
-  if (hasFocus()) {
-    painter.setPen(QPen(theme_->accent, 1));
-    painter.setBrush(Qt::NoBrush);
-    painter.drawRect(QRectF(0.5, 0.5, width() - 1, height() - 1));
-  }
+  paint_focus(painter);
+}
+
+void TimelineTracks::paint_focus(QPainter& painter) const {
+  if (!hasFocus()) return;
+  painter.setPen(QPen(theme_->accent, 1));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRect(QRectF(0.5, 0.5, width() - 1, height() - 1));
 }
 
 void TimelineTracks::paint_ruler(QPainter& painter) {
   painter.fillRect(QRectF(0, 0, width(), ruler), theme_->window);
   painter.setPen(theme_->line);
   painter.drawLine(QPointF(0, ruler), QPointF(width(), ruler));
-  if (rows_.empty()) return;
-  const double frames_a_pixel = frame_at(gutter + 1) - frame_at(gutter);
+  if (!any_motion() && playback_.frames() == 0) return;
+  const double frames_a_pixel = frame_at(gutter_ + 1) - frame_at(gutter_);
   const double step = nice_step(70 * frames_a_pixel);
   painter.setPen(theme_->faint_text);
-  painter.drawText(QRectF(10, 0, gutter - 16, ruler), Qt::AlignVCenter | Qt::AlignLeft, tr("Frame"));
+  painter.drawText(QRectF(10, 0, gutter_ - 16, ruler), Qt::AlignVCenter | Qt::AlignLeft, tr("Frame"));
   const double end = frame_at(width());
   for (double frame = std::max(0.0, std::ceil(first_ / step) * step); frame <= end; frame += step) {
     const double x = x_of(frame);
@@ -149,30 +193,43 @@ void TimelineTracks::paint_ruler(QPainter& painter) {
 }
 
 void TimelineTracks::paint_row(QPainter& painter, const Row& row, const QRectF& where) {
+  const std::size_t lanes = lanes_of(row);
+  const double lane = lanes > 0 ? (where.height() - 2 * lane_pad) / static_cast<double>(lanes) : 0;
+  const bool named = lane >= least_named_lane;
   painter.setPen(theme_->text);
-  const QString name =
-      painter.fontMetrics().elidedText(row.name, Qt::ElideRight, static_cast<int>(gutter) - 30);
-  painter.drawText(QRectF(22, where.top(), gutter - 26, where.height()), Qt::AlignVCenter | Qt::AlignLeft,
-                   name);
+  const double room = gutter_ - 28 - (named ? lane_names_ : 0);
+  const QString name = painter.fontMetrics().elidedText(row.name, Qt::ElideRight, static_cast<int>(room) + 1);
+  painter.drawText(QRectF(22, where.top(), room + 2, where.height()), Qt::AlignVCenter | Qt::AlignLeft, name);
   painter.setPen(Qt::NoPen);
   painter.setBrush(row.color);
   painter.drawEllipse(QPointF(13, where.center().y()), 4, 4);
   if (!row.motion) {
     painter.setPen(theme_->faint_text);
-    painter.drawText(QRectF(gutter + 10, where.top(), width() - gutter - 20, where.height()),
+    painter.drawText(QRectF(gutter_ + 10, where.top(), width() - gutter_ - 20, where.height()),
                      Qt::AlignVCenter | Qt::AlignLeft, row.why_not);
     return;
   }
   const ShownMotion& motion = *row.motion;
   const double scale = playback_.fps() / motion.fps;
   const QRectF body(x_of(0), where.top(), x_of(motion.frames * scale) - x_of(0), where.height());
-  painter.setClipRect(QRectF(gutter - 2, 0, width(), height()));
+  painter.setClipRect(QRectF(gutter_ - 2, 0, width(), height()));
   QColor back = theme_->raised;
   painter.setBrush(back);
   painter.setPen(QPen(theme_->line, 1));
   painter.drawRoundedRect(body, 3, 3);
-  const std::size_t lanes = motion.contacts.points.size();
-  const double lane = lanes > 0 ? (where.height() - 2 * lane_pad) / static_cast<double>(lanes) : 0;
+  if (named) {
+    painter.setClipping(false);
+    const QFont usual = painter.font();
+    painter.setFont(lane_font(usual, lane));
+    painter.setPen(theme_->faint_text);
+    for (std::size_t i = 0; i < lanes; ++i)
+      painter.drawText(QRectF(gutter_ - 7 - lane_names_,
+                              where.top() + lane_pad + static_cast<double>(i) * lane, lane_names_, lane - 1),
+                       Qt::AlignVCenter | Qt::AlignRight | Qt::TextDontClip,
+                       lane_name(motion.contacts.points[i]));
+    painter.setFont(usual);
+    painter.setClipping(true);
+  }
   painter.setPen(Qt::NoPen);
   for (std::size_t i = 0; i < lanes; ++i) {
     const FootPoint& point = motion.contacts.points[i];
@@ -192,7 +249,7 @@ void TimelineTracks::paint_row(QPainter& painter, const Row& row, const QRectF& 
 void TimelineTracks::paint_warp(QPainter& painter, const QRectF& upper, const QRectF& lower) {
   if (warp_->paths.empty() || warp_->paths.front().empty()) return;
   const std::vector<std::uint32_t>& path = warp_->paths.front();
-  painter.setClipRect(QRectF(gutter - 2, upper.bottom(), width(), lower.top() - upper.bottom()));
+  painter.setClipRect(QRectF(gutter_ - 2, upper.bottom(), width(), lower.top() - upper.bottom()));
   const double scale = playback_.fps() / warp_->fps;
   const double pixels = (x_of(1) - x_of(0)) * scale;
   const std::size_t step =
@@ -228,7 +285,7 @@ QString TimelineTracks::told_at(QPointF at) const {
     const double scale = playback_.fps() / row.motion->fps;
     QString words = tr("%1, frame %2").arg(row.name).arg(std::max(0, frame));
     const auto& points = row.motion->contacts.points;
-    if (points.empty() || at.x() < gutter) return words;
+    if (points.empty() || at.x() < gutter_) return words;
     const double lane = (where.height() - 2 * lane_pad) / static_cast<double>(points.size());
     const int over = static_cast<int>(std::floor((at.y() - where.top() - lane_pad) / lane));
     const FootPoint& point =

@@ -50,6 +50,9 @@ class TimelineTracks : public QWidget {
   // What a tool tip says there: row, frame, and the foot of the bar.
   QString told_at(QPointF at) const;
   void paint_ruler(QPainter& painter);
+  void paint_focus(QPainter& painter) const;
+  void fit_gutter();
+  bool any_motion() const;
   void paint_row(QPainter& painter, const Row& row, const QRectF& where);
   void paint_warp(QPainter& painter, const QRectF& upper, const QRectF& lower);
   QRectF row_rect(std::size_t index) const;
@@ -60,7 +63,8 @@ class TimelineTracks : public QWidget {
   const Theme* theme_;
   std::vector<Row> rows_;
   std::shared_ptr<const Warp> warp_;
-  double first_ = 0, shown_ = 0;  // frames: left end and width of the view; shown_ 0 = everything
+  double first_ = 0, shown_ = 0;         // frames: left end and width of the view; shown_ 0 = everything
+  double gutter_ = 96, lane_names_ = 0;  // pixels: left of the frames, and of that what the lanes' names need
   Drag drag_ = Drag::none;
   double dragged_from_ = 0;
 };

@@ -73,26 +73,32 @@ double Stage::shape() const {
   return std::max(1.0, cell.width() * width()) / std::max(1.0, cell.height() * height());
 }
 
+// Upright at the edge, where it keeps clear of the feet: longer above, shorter below.
 void Stage::paint_legend(QPainter& painter) const {
-  constexpr double wide = 164, high = 40, edge = 10;
-  const QRectF plate(8, height() - high - 8, wide, high);
+  constexpr double edge = 8, bar_width = 6, space = 7;
+  const QFontMetricsF metrics(painter.font());
+  const QString lines[] = {tr("+10 %"), tr("length"), tr("−10 %")};
+  double words = 0;
+  for (const QString& line : lines) words = std::max(words, metrics.horizontalAdvance(line));
+  const double line_height = metrics.height(), wide = edge + bar_width + space + words + edge;
+  const QRectF plate(8, height() - 3 * line_height - edge - 8, wide, 3 * line_height + edge);
   QColor back = theme_->panel;
   back.setAlpha(205);
   painter.setPen(Qt::NoPen);
   painter.setBrush(back);
   painter.drawRoundedRect(plate, 4, 4);
-  const QRectF bar(plate.left() + edge, plate.top() + 8, wide - 2 * edge, 6);
-  QLinearGradient colors(bar.topLeft(), bar.topRight());
+  const QRectF bar(plate.left() + edge, plate.top() + edge, bar_width, plate.height() - 2 * edge);
+  QLinearGradient colors(bar.bottomLeft(), bar.topLeft());
   colors.setColorAt(0, theme_->stretch_short);
   colors.setColorAt(0.5, theme_->bone);
   colors.setColorAt(1, theme_->stretch_long);
   painter.setBrush(colors);
-  painter.drawRoundedRect(bar, 2, 2);
+  painter.drawRoundedRect(bar, 3, 3);
   painter.setPen(theme_->text);
-  const QRectF words(bar.left(), bar.bottom() + 3, bar.width(), plate.bottom() - bar.bottom() - 6);
-  painter.drawText(words, Qt::AlignLeft | Qt::AlignVCenter, tr("−10 %"));
-  painter.drawText(words, Qt::AlignHCenter | Qt::AlignVCenter, tr("length"));
-  painter.drawText(words, Qt::AlignRight | Qt::AlignVCenter, tr("+10 %"));
+  for (int i = 0; i < 3; ++i)
+    painter.drawText(
+        QRectF(bar.right() + space, plate.top() + edge / 2 + i * line_height, words + 2, line_height),
+        Qt::AlignLeft | Qt::AlignVCenter, lines[i]);
 }
 
 void Stage::camera_changed() {

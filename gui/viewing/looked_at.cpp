@@ -63,6 +63,23 @@ std::string type_of(const Document& document, const Registry& registry, const Ta
   return {};
 }
 
+// Of what nearby nodes before it make; first in the list where none of them makes any.
+std::string type_fed_with(const Document& document, const Registry& registry, const std::string& node,
+                          const std::vector<std::string>& types) {
+  std::deque<std::string> waiting{node};
+  std::set<std::string> seen{node};
+  while (!waiting.empty()) {
+    const std::string at = waiting.front();
+    waiting.pop_front();
+    for (const Target& source : links_into(document, registry, at)) {
+      const std::string type = type_of(document, registry, source, 0);
+      if (std::find(types.begin(), types.end(), type) != types.end()) return type;
+      if (seen.insert(source.node).second) waiting.push_back(source.node);
+    }
+  }
+  return types.front();
+}
+
 }  // namespace
 
 std::string type_of_output(const Document& document, const Registry& registry, const Target& target) {
@@ -87,9 +104,18 @@ std::optional<Target> nearest_output(const Document& document, const Registry& r
   while (!waiting.empty()) {
     const std::string at = waiting.front();
     waiting.pop_front();
-    for (const std::string& type : types) {
-      const std::vector<Target> own = outputs_of(document, registry, at, type);
-      if (!own.empty()) return own.front();
+    // What can make motions or points makes what it is fed with.
+    std::vector<std::vector<Target>> own;
+    std::vector<std::string> made;
+    for (const std::string& type : types)
+      if (std::vector<Target> some = outputs_of(document, registry, at, type); !some.empty()) {
+        own.push_back(std::move(some));
+        made.push_back(type);
+      }
+    if (own.size() == 1) return own.front().front();
+    if (!own.empty()) {
+      const std::string fed = type_fed_with(document, registry, at, made);
+      return own[static_cast<std::size_t>(std::find(made.begin(), made.end(), fed) - made.begin())].front();
     }
     for (const Target& source : links_into(document, registry, at)) {
       // The very output that is linked comes first: a node may make several motions.

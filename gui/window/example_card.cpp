@@ -78,12 +78,10 @@ void ExampleCard::paintEvent(QPaintEvent*) {
   QFont font;
   font.setPixelSize(13);
   font.setBold(true);
-  while (font.pixelSize() > 11 && QFontMetrics(font).horizontalAdvance(title_) > width() - 24)
-    font.setPixelSize(font.pixelSize() - 1);
   p.setFont(font);
   p.setPen(theme_->text);
-  p.drawText(QRect(12, height() - 60, width() - 24, 20), Qt::AlignLeft | Qt::AlignVCenter,
-             QFontMetrics(font).elidedText(title_, Qt::ElideRight, width() - 24));
+  p.drawText(QRect(12, height() - 60, width() - 20, 20), Qt::AlignLeft | Qt::AlignVCenter,
+             QFontMetrics(font).elidedText(title_, Qt::ElideRight, width() - 20));
   font.setPixelSize(11);
   font.setBold(false);
   p.setFont(font);

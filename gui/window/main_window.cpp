@@ -63,10 +63,10 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   hover_text_->setObjectName("faint");
   hover_text_->setAccessibleName(tr("What is under the pointer"));
   state_text_->setAccessibleName(tr("State of the evaluation"));
-  state_text_->setContentsMargins(6, 0, 10, 0);
+  state_text_->setContentsMargins(6, 0, 2, 0);
   hover_text_->setContentsMargins(10, 0, 6, 0);
   progress_->setAccessibleName(tr("Progress"));
-  progress_->setMaximumWidth(160);
+  progress_->setFixedSize(140, 8);
   progress_->setTextVisible(false);
   progress_->setRange(0, 1000);
   progress_->hide();
@@ -74,6 +74,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   statusBar()->addWidget(hover_text_, 1);
   statusBar()->addPermanentWidget(state_text_);
   statusBar()->addPermanentWidget(progress_);
+  statusBar()->setContentsMargins(0, 0, 10, 0);
   statusBar()->setSizeGripEnabled(false);
 
   make_docks();
@@ -100,7 +101,8 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   connect(&session_, &Session::selection_changed, this, &MainWindow::update_actions);
   connect(&session_, &Session::file_changed, this, &MainWindow::update_title);
   connect(&session_, &Session::refused, this, [this](const QString& message, const QString& hint) {
-    notice_->say(hint.isEmpty() ? message : message + " – " + hint, {}, 8);
+    const QString end = message.endsWith('.') ? QString() : QStringLiteral(".");
+    notice_->say(NoticeBar::Kind::warning, hint.isEmpty() ? message : message + end + " " + hint, {}, 8);
   });
   // Once all docks have heard of a change, so that they are asked what they want afterwards.
   const auto later = [this] {
@@ -190,12 +192,19 @@ void MainWindow::evaluate() {
       for (const auto& [port, inputs] : found->second.inputs)
         for (const Link& link : inputs.links) ask({link.node, link.port});
     } else if (type) {
-      // A reader gives only what its file holds: of its many outputs those that are linked.
-      if (type->outputs.size() > 3) {
+      // A reader gives only what its file holds, and what makes motions or points makes one of them: of such
+      // outputs those that are linked.
+      const bool either = !outputs_of(session_.document(), registry_, looked_at, "Motion").empty() &&
+                          !outputs_of(session_.document(), registry_, looked_at, "Points").empty();
+      if (either || type->outputs.size() > 3) {
         for (const auto& [name, node] : session_.document().nodes)
           for (const auto& [port, inputs] : node.inputs)
             for (const Link& link : inputs.links)
               if (link.node == looked_at) ask({link.node, link.port});
+        if (asked.empty() && either)
+          if (const auto shown =
+                  nearest_output(session_.document(), registry_, looked_at, {"Motion", "Points"}))
+            ask(*shown);
         for (const OutputPort& port : type->outputs) {
           if (!asked.empty()) break;
           for (const Target& own : outputs_of(session_.document(), registry_, looked_at, port.type))
@@ -265,7 +274,11 @@ void MainWindow::update_title() {
 // Sizes that docks get before the window has its own don't last.
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
-  if (!std::exchange(laid_out_, true)) QTimer::singleShot(0, this, &MainWindow::size_docks);
+  if (!std::exchange(laid_out_, true))
+    QTimer::singleShot(0, this, [this] {
+      size_docks();
+      QTimer::singleShot(0, canvas_, &GraphCanvas::frame_all);  // in the room that is left for it
+    });
 }
 
 // A line takes Ctrl+Z for its own text, also where nothing was typed: then the last step of the graph is

@@ -84,7 +84,8 @@ void MainWindow::offer_merge(const std::string& now) {
   const ReadResult theirs = read_document(now, path, registry_);
   if (has_error(theirs.problems)) {
     session_.refuse(read_graph_text(now, session_.path(), registry_, session_.modified_pages(), StopToken()));
-    notice_->say(tr("%1 changed on disk and can't be read there any more. What is open here is kept; saving "
+    notice_->say(NoticeBar::Kind::warning,
+                 tr("%1 changed on disk and can't be read there any more. What is open here is kept; saving "
                     "replaces what is on disk.")
                      .arg(session_.title()),
                  {{tr("Show problems"), [this] { show_dock("Problems"); }}});
@@ -109,9 +110,11 @@ void MainWindow::offer_merge(const std::string& now) {
     QStringList conflicts;
     for (const MergeConflict& one : merged.conflicts) conflicts << QString::fromStdString(one.what);
     notice_->say(
+        NoticeBar::Kind::warning,
         tr("Both sides changed the same; what is open here was kept for: %1").arg(conflicts.join("; ")));
   };
-  notice_->say(tr("%1 changed on disk: %2. Merge it in, or keep what is open, before it is saved.")
+  notice_->say(NoticeBar::Kind::info,
+               tr("%1 changed on disk: %2. Merge it in, or keep what is open, before it is saved.")
                    .arg(session_.title(), list),
                {{tr("Merge it in"), merge_in},
                 {tr("Show what changed"),
@@ -137,15 +140,16 @@ void MainWindow::offer_missing_files() {
   const auto missing = missing_files(session_);
   if (missing.empty()) return;
   const QString first = QString::fromStdString(missing.front().node);
-  notice_->say(missing.size() == 1 ? tr("A file that %1 reads is missing.").arg(first)
+  notice_->say(NoticeBar::Kind::warning,
+               missing.size() == 1 ? tr("A file that %1 reads is missing.").arg(first)
                                    : tr("%1 files that the graph reads are missing.").arg(missing.size()),
-               {{tr("Find them…"), [this] { relink(); }}});
+               {{missing.size() == 1 ? tr("Find it…") : tr("Find them…"), [this] { relink(); }}});
 }
 
 void MainWindow::relink() {
   const auto missing = missing_files(session_);
   if (missing.empty()) {
-    notice_->say(tr("No file is missing."), {}, 5);
+    notice_->say(NoticeBar::Kind::good, tr("No file is missing."), {}, 5);
     return;
   }
   RelinkDialog dialog(session_, known_files_, missing, this);

@@ -1,6 +1,7 @@
 // The docks and where they stand when nobody has moved them.
 #include <QDockWidget>
 #include <QTabBar>
+#include <algorithm>
 
 #include "gui/components/components_panel.h"
 #include "gui/curves/curves_panel.h"
@@ -104,10 +105,14 @@ void MainWindow::usual_layout() {
   QMetaObject::invokeMethod(this, &MainWindow::update_dock_titles, Qt::QueuedConnection);
 }
 
+// A third of the width for what is seen and set, and of a large window's height more for the motion.
 void MainWindow::size_docks() {
-  resizeDocks({docks_[0], docks_[3]}, {440, 840}, Qt::Horizontal);
-  resizeDocks({docks_[0], docks_[1]}, {350, 400}, Qt::Vertical);
-  resizeDocks({docks_[3]}, {270}, Qt::Vertical);
+  const int right = std::clamp(width() * 34 / 100, 384, 620),
+            below = std::clamp(height() * 34 / 100, 220, 340);
+  const int viewer = std::max(300, height() * 44 / 100);
+  resizeDocks({docks_[0], docks_[3]}, {right, width() - right}, Qt::Horizontal);
+  resizeDocks({docks_[0], docks_[1]}, {viewer, height() - viewer}, Qt::Vertical);
+  resizeDocks({docks_[3]}, {below}, Qt::Vertical);
 }
 
 // A dock among tabs has its name on its tab already.

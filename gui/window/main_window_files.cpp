@@ -44,7 +44,7 @@ QString listed(const Diagnostics& problems) {
 void MainWindow::tell(const Diagnostics& problems, const QString& title) {
   if (problems.empty()) return;
   if (!options_.ask || !isVisible()) {
-    notice_->say(title + "\n" + listed(problems));
+    notice_->say(NoticeBar::Kind::error, title + "\n" + listed(problems));
     return;
   }
   QMessageBox box(QMessageBox::Warning, tr("Kinegraph"), title, QMessageBox::Close, this);
@@ -84,7 +84,8 @@ bool MainWindow::open(const QString& path) {
   canvas_->frame_all();
   notice_->hide();
   if (session_.is_read_only())
-    notice_->say(tr("%1 was made by a newer Kinegraph. It can be looked at but not changed or saved; update "
+    notice_->say(NoticeBar::Kind::warning,
+                 tr("%1 was made by a newer Kinegraph. It can be looked at but not changed or saved; update "
                     "Kinegraph to work on it.")
                      .arg(session_.title()));
   offer_missing_files();
@@ -95,7 +96,8 @@ bool MainWindow::open(const QString& path) {
 void MainWindow::offer_autosave() {
   if (!session_.autosave_found() || session_.is_read_only()) return;
   session_.keep_found();
-  notice_->say(tr("Work on %1 that was never saved was found, from a session that ended unexpectedly.")
+  notice_->say(NoticeBar::Kind::info,
+               tr("Work on %1 that was never saved was found, from a session that ended unexpectedly.")
                    .arg(session_.title()),
                {{tr("Take it up"),
                  [this] {
@@ -185,13 +187,15 @@ void MainWindow::fill_recent(QMenu* menu) {
 void MainWindow::run_effects() {
   if (has_error(session_.problems())) {
     show_dock("Problems");
-    notice_->say(tr("The graph has problems that keep it from running; the Problems dock lists them."), {},
+    notice_->say(NoticeBar::Kind::error,
+                 tr("The graph has problems that keep it from running; the Problems dock lists them."), {},
                  8);
     return;
   }
   if (!save_what_is_inside()) return;
   if (session_.is_reading_inside()) {
-    notice_->say(tr("The graph files inside are still being read; run once they are there."), {}, 8);
+    notice_->say(NoticeBar::Kind::info,
+                 tr("The graph files inside are still being read; run once they are there."), {}, 8);
     return;
   }
   EvaluationRequest request;
@@ -206,6 +210,7 @@ void MainWindow::run_effects() {
   }
   if (!any) {
     notice_->say(
+        NoticeBar::Kind::info,
         tr("There is nothing to run: Run does the Export and Check nodes. Add an Export to write a file."),
         {}, 8);
     return;
@@ -217,7 +222,8 @@ void MainWindow::cancel_work() {
   evaluation_.cancel();
   if (!session_.is_reading_inside()) return;
   session_.stop_reading_inside();
-  notice_->say(tr("Reading the graph files inside was cancelled: what needs them can't run yet."),
+  notice_->say(NoticeBar::Kind::warning,
+               tr("Reading the graph files inside was cancelled: what needs them can't run yet."),
                {{tr("Read them"), [this] { session_.reopen_inside(); }}});
 }
 
@@ -235,14 +241,20 @@ void MainWindow::ran_effects() {
                   .arg(QString::fromStdString(rule.rule))
                   .arg(rule.value, 0, 'g', 4);
   }
-  if (passed) text += tr("Checks passed: %1. ").arg(passed);
+  if (passed) text += passed == 1 ? tr("1 check passed. ") : tr("%1 checks passed. ").arg(passed);
   for (const auto& [name, node] : log.nodes)
     failed_nodes += node.state == NodeState::failed || node.state == NodeState::blocked;
-  for (const Diagnostic& problem : evaluation_.problems())
-    text += QString::fromStdString(problem.message) + ". ";
+  for (const Diagnostic& problem : evaluation_.problems()) text += problem_text(problem) + " ";
   if (log.stopped) text = tr("The run was cancelled.");
-  if (failed_nodes) text += tr("Nodes that failed or were blocked: %1.").arg(failed_nodes);
-  notice_->say(text.isEmpty() ? tr("Nothing was written.") : text.trimmed(),
+  if (failed_nodes)
+    text += failed_nodes == 1 ? tr("1 node failed or was blocked.")
+                              : tr("%1 nodes failed or were blocked.").arg(failed_nodes);
+  const bool wrong = failed_nodes || static_cast<std::size_t>(passed) < log.rules.size();
+  notice_->say(log.stopped      ? NoticeBar::Kind::warning
+               : wrong          ? NoticeBar::Kind::error
+               : text.isEmpty() ? NoticeBar::Kind::info
+                                : NoticeBar::Kind::good,
+               text.isEmpty() ? tr("Nothing was written.") : text.trimmed(),
                failed_nodes
                    ? std::vector<NoticeBar::Answer>{{tr("Show problems"), [this] { show_dock("Problems"); }}}
                    : std::vector<NoticeBar::Answer>{});

@@ -53,7 +53,8 @@ void MainWindow::open_inside(const std::string& name) {
   if (node == session_.document().nodes.end() || !node->second.nested) return;
   const QString path = QString::fromStdString(node->second.nested->path);
   if (path.isEmpty() || !QFile::exists(path)) {
-    notice_->say(tr("%1 names no graph file that is there; choose one among its parameters.")
+    notice_->say(NoticeBar::Kind::warning,
+                 tr("%1 names no graph file that is there; choose one among its parameters.")
                      .arg(QString::fromStdString(name)),
                  {}, 8);
     return;

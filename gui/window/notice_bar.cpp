@@ -27,18 +27,29 @@ NoticeBar::NoticeBar(QWidget* parent)
 
 // Its sign is drawn in the colours of the theme.
 void NoticeBar::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::StyleChange)
-    sign_->setPixmap(
-        style()->standardIcon(QStyle::SP_MessageBoxInformation).pixmap(QSize(16, 16), devicePixelRatioF()));
+  if (event->type() == QEvent::StyleChange) draw_sign();
   QFrame::changeEvent(event);
 }
 
-void NoticeBar::say(const QString& message, std::vector<Answer> answers, int seconds) {
+void NoticeBar::draw_sign() {
+  const QStyle::StandardPixmap signs[] = {QStyle::SP_MessageBoxInformation, QStyle::SP_DialogApplyButton,
+                                          QStyle::SP_MessageBoxWarning, QStyle::SP_MessageBoxCritical};
+  const QIcon sign = style()->standardIcon(signs[static_cast<int>(kind_)]);
+  sign_->setPixmap(sign.pixmap(QSize(16, 16), devicePixelRatioF()));
+}
+
+void NoticeBar::say(Kind kind, const QString& message, std::vector<Answer> answers, int seconds) {
   for (QWidget* button : buttons_) {
     button->hide();  // one of them may have been clicked just now
     button->deleteLater();
   }
   buttons_.clear();
+  kind_ = kind;
+  static const char* const names[] = {"info", "good", "warning", "error"};
+  setProperty("kind", QString(names[static_cast<int>(kind)]));
+  style()->unpolish(this);  // its edge has the colour of its kind
+  style()->polish(this);
+  draw_sign();
   label_->setText(message);
   answers.push_back({tr("Close"), [] {}});
   for (Answer& answer : answers) {

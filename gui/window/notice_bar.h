@@ -19,14 +19,18 @@ class NoticeBar : public QFrame {
     QString text;
     std::function<void()> act;
   };
+  enum class Kind { info, good, warning, error };
   explicit NoticeBar(QWidget* parent = nullptr);
   // `seconds` 0 = until it is answered or replaced.
-  void say(const QString& message, std::vector<Answer> answers = {}, int seconds = 0);
+  void say(Kind kind, const QString& message, std::vector<Answer> answers = {}, int seconds = 0);
 
  protected:
   void changeEvent(QEvent* event) override;
 
  private:
+  void draw_sign();
+
+  Kind kind_ = Kind::info;
   QLabel* sign_;
   QLabel* label_;
   QHBoxLayout* layout_;
