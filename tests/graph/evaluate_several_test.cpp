@@ -83,14 +83,14 @@ TEST_F(SeveralRuns, WithOneThreadEachTheyComeToTheirEndToo) {
 }
 
 TEST_F(SeveralRuns, WhatIsNotWantedAnyMoreStops) {
-  StopToken stop;
+  StopToken wanted;
   RunLog log;
-  std::thread run = begin(graph, {"c", "sum"}, stop, log);
+  std::thread run = begin(graph, {"c", "sum"}, wanted, log);
   EXPECT_TRUE(trace.wait_for("other"));
   const std::set<Key> kept = keys_wanted(graph, {"a", "sum"});
   EXPECT_EQ(kept.size(), 1u);
-  stop.stop_all_but(kept);
-  stop.stop_all_but({});
+  wanted.stop_all_but(kept);
+  wanted.stop_all_but({});
   run.join();  // without "go"
   EXPECT_EQ(log.nodes.at("hold").state, NodeState::cancelled);
   EXPECT_EQ(log.nodes.at("other").state, NodeState::cancelled);
