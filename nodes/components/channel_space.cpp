@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "nodes/components/channels.h"
 #include "nodes/components/decomposed_pose.h"
@@ -49,14 +50,35 @@ std::vector<std::string> ChannelSpace::channel_names() const {
   return names;
 }
 
-std::vector<int> joints_of(const ChannelSpace& space, const Skeleton& skeleton) {
+namespace {
+
+// Of each joint of `wanted` the joint of that name, where all are there.
+std::optional<std::vector<int>> same_names(const Skeleton& wanted, const Skeleton& skeleton) {
   std::vector<int> out;
-  bool all = true;
-  for (const Joint& joint : space.skeleton->joints) {
+  for (const Joint& joint : wanted.joints) {
     out.push_back(skeleton.find(joint.name));
-    all = all && out.back() >= 0;
+    if (out.back() < 0) return std::nullopt;
   }
-  return all ? out : partners(skeleton, *space.skeleton, space.map);
+  return out;
+}
+
+// A map that no clip needs: an error where it names joints that aren't there, else told.
+void check_map(const ChannelSpace& space, const std::vector<std::shared_ptr<const Motion>>& motions,
+               Work& work) {
+  for (const auto& motion : motions)
+    if (!same_names(*space.skeleton, motion->skeleton())) return;
+  if (space.map.empty()) return;
+  partners(motions.back()->skeleton(), *space.skeleton, space.map);
+  work.report(warning("map-unused", "every clip has the first one's joints by name: `map` says nothing")
+                  .at_param("map")
+                  .hinting("leave `map` empty, or rename joints in the files"));
+}
+
+}  // namespace
+
+std::vector<int> joints_of(const ChannelSpace& space, const Skeleton& skeleton) {
+  if (auto all = same_names(*space.skeleton, skeleton)) return *all;
+  return partners(skeleton, *space.skeleton, space.map);
 }
 
 ChannelSpace space_of_motions(Representation representation,
@@ -68,6 +90,7 @@ ChannelSpace space_of_motions(Representation representation,
   space.heading = heading;
   space.skeleton = motions.front()->shared_skeleton();
   space.map = map;
+  check_map(space, motions, work);
   std::vector<std::vector<int>> joints;
   for (const auto& motion : motions) joints.push_back(joints_of(space, motion->skeleton()));
   for (int j = 0; j < space.skeleton->size(); ++j) {

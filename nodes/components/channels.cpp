@@ -85,4 +85,20 @@ Rows channels_of(const ChannelSpace& space, const Points& points, Work& work) {
   return out;
 }
 
+Rows channels_on_path(const ChannelSpace& space, const Points& points, const Motion& base, Work& work) {
+  const auto labels = labels_of(space.labels, points);
+  check_whole(points, labels);
+  const DecomposedPose prepared(space, base, work);
+  const double scale = base.skeleton().above_scale;
+  Rows out(space.channels(), points.frames);
+  for (std::size_t t = 0; t < points.frames; ++t) {
+    if (t % 256 == 0) work.check();
+    const Vec3 place = prepared.root_place(t);
+    const Quat back = inverse(prepared.root_facing(t));
+    for (std::size_t i = 0; i < labels.size(); ++i)
+      put(out, 3 * i, t, rotate(back, points.track(labels[i])[t] - place) / scale);
+  }
+  return out;
+}
+
 }  // namespace kinegraph

@@ -64,6 +64,9 @@ std::vector<int> joints_of(const ChannelSpace& space, const Skeleton& skeleton);
 Rows channels_of(const ChannelSpace& space, const Motion& motion, const std::vector<double>& before,
                  Work& work);
 Rows channels_of(const ChannelSpace& space, const Points& points, Work& work);
+// Of points that stand on a motion's path, as points_from_channels puts them there; the space is of positions
+// of motions. Throws as space_of_points where the clip lacks what is needed.
+Rows channels_on_path(const ChannelSpace& space, const Points& points, const Motion& base, Work& work);
 
 struct WayBack {
   bool limbs = true;  // bones keep the base's rest lengths, only directions are taken from the points

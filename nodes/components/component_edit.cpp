@@ -154,32 +154,23 @@ class Editing {
     std::vector<std::size_t> entries;
     for (const ComponentTerm& term : terms(edit.component)) entries.push_back(term.index);
     const Rows alone = channels_from_signals(now_, u_, entries);
+    if (!inputs_.edited_points && !inputs_.edited_motion) throw no_input("edited");
+    check_length(inputs_.edited_motion ? inputs_.edited_motion->frames() : inputs_.edited_points->frames);
     Rows& added = make_added();
-    if (inputs_.edited_points) {
-      check_length(inputs_.edited_points->frames);
+    if (inputs_.edited_motion && base().motion)
+      add_edited_motion(added, alone, entries);
+    else if (inputs_.edited_points && base().points)
       add(added, channels_of(now_.space, *inputs_.edited_points, work_), alone);
-    } else if (inputs_.edited_motion && base().motion) {
-      check_length(inputs_.edited_motion->frames());
-      // ComponentMotion gave a motion with whole bones; what that alone changed is no edit.
-      std::vector<double> near;  // only Euler angles have turns to count
-      if (now_.space.representation == Representation::euler)
-        for (std::size_t d = 0; d < alone.rows; ++d) near.push_back(alone(d, 0));
-      ShownKey key{{base().motion}, entries, {}};
-      for (std::size_t i : entries) key.signals.insert(key.signals.end(), u_.row(i), u_.row(i) + frames());
-      const auto shown = now_.memory->shown.get(
-          key,
-          [&](Work& work) {
-            const Motion motion = motion_from_channels(now_.space, alone, *base().motion, {}, work);
-            return channels_of(now_.space, motion, near, work);
-          },
-          work_);
-      const auto edited = now_.memory->edited.get(
-          {{inputs_.edited_motion}, near},
-          [&](Work& work) { return channels_of(now_.space, *inputs_.edited_motion, near, work); }, work_);
-      add(added, *edited, *shown);
-    } else {
-      throw no_input("edited");
-    }
+    else if (inputs_.edited_points && now_.space.representation == Representation::points)
+      add_edited_points(added, alone);
+    else
+      throw Failure(error("wrong-kind", fmt::format("the edited clip is {}, the components are of {}",
+                                                    inputs_.edited_motion ? "a motion" : "points",
+                                                    base().points ? "points" : "rotations"))
+                        .at_port("edited")
+                        .at_param(where_)
+                        .hinting(fmt::format("link what came of ComponentMotion's output `{}`",
+                                             base().points ? "points" : "motion")));
   }
 
   void operator()(const edits::Warp& edit) {
@@ -251,6 +242,32 @@ class Editing {
   Rows& make_added() {
     if (added_.data.empty()) added_ = Rows(now_.mixing.rows, frames());
     return added_;
+  }
+  // ComponentMotion gave a clip with whole bones; what that alone changed is no edit. `alone`: the component
+  // as it is now.
+  void add_edited_motion(Rows& added, const Rows& alone, const std::vector<std::size_t>& entries) {
+    std::vector<double> near;  // only Euler angles have turns to count
+    if (now_.space.representation == Representation::euler)
+      for (std::size_t d = 0; d < alone.rows; ++d) near.push_back(alone(d, 0));
+    ShownKey key{{base().motion}, entries, {}};
+    for (std::size_t i : entries) key.signals.insert(key.signals.end(), u_.row(i), u_.row(i) + frames());
+    const auto shown = now_.memory->shown.get(
+        key,
+        [&](Work& work) {
+          const Motion motion = motion_from_channels(now_.space, alone, *base().motion, {}, work);
+          return channels_of(now_.space, motion, near, work);
+        },
+        work_);
+    const auto edited = now_.memory->edited.get(
+        {{inputs_.edited_motion}, near},
+        [&](Work& work) { return channels_of(now_.space, *inputs_.edited_motion, near, work); }, work_);
+    add(added, *edited, *shown);
+  }
+  void add_edited_points(Rows& added, const Rows& alone) {
+    const Motion& path = *base().motion;
+    const Points shown = points_from_channels(now_.space, alone, path, {}, work_);
+    add(added, channels_on_path(now_.space, *inputs_.edited_points, path, work_),
+        channels_on_path(now_.space, shown, path, work_));
   }
   static void add(Rows& sum, const Rows& plus, const Rows& minus) {
     for (std::size_t i = 0; i < sum.data.size(); ++i) sum.data[i] += plus.data[i] - minus.data[i];

@@ -83,8 +83,8 @@ struct ComponentEditResult {
   Rows channels;  // x of that segment
 };
 // Throws Failure at edits[i] or a field of it: "unknown-component", "unknown-segment", "bad-range",
-// "no-input" (an edit needs `other` or `edited`), "wrong-channels", "wrong-length", "name-taken", "bad-edit",
-// those of alignment.h.
+// "no-input" (an edit needs `other` or `edited`), "wrong-kind" (`edited` is), "wrong-channels",
+// "wrong-length", "name-taken", "bad-edit", those of alignment.h.
 ComponentEditResult edit_components(const Components& components, const ComponentEditParams& params,
                                     const ComponentEditInputs& inputs, Work& work);
 

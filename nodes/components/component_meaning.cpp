@@ -83,6 +83,10 @@ std::vector<std::optional<double>> emotion_distances(const Components& component
   std::size_t rows = 0;
   for (std::size_t p = 0; p < params.pairs.size(); ++p) {
     const std::string param = "pairs[" + std::to_string(p) + "]";
+    if (params.pairs[p].first == params.pairs[p].second)
+      throw Failure(error("bad-pair", "a segment is no pair with itself")
+                        .at_param(param)
+                        .hinting("name two segments of equal content and different emotion"));
     const auto &a = segment_of(components, params.pairs[p].first, param),
                &b = segment_of(components, params.pairs[p].second, param);
     const Correspondence path = aligned_segments(components, a, b, params.align, "align", work);

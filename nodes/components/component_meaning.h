@@ -57,7 +57,7 @@ struct ComponentMeaning {
 // d_emotion,j = (Σ_pairs Σ_t (u_j - v_j)² / Σ_pairs q)^½ over the q rows of each pair's path. With
 // x_A = E{x} + P A Σ_{i∈A} uᵢ eᵢ and d(x_A, x_B) = (mean over frames of the mean over the region's points of
 // ‖x_A - x_B‖²)^½: d_region,i = d(x_{E∪{i}}, x_all) - d(x_E, x_all), and for i of E, where that would be 0,
-// d(x_E, x_all) - d(x_{E∖{i}}, x_all). Throws Failure: "unknown-segment", "unknown-component",
+// d(x_E, x_all) - d(x_{E∖{i}}, x_all). Throws Failure: "unknown-segment", "bad-pair", "unknown-component",
 // "unknown-joint", "no-joints" at regions.
 ComponentMeaning component_meaning(const Components& components, const MeaningParams& params, Work& work);
 

@@ -29,6 +29,15 @@ Quat DecomposedPose::local(int joint, std::size_t t) const {
   return space_.heading ? root_.rho[t] : about_y(root_.heading[t]) * root_.rho[t];
 }
 
+Vec3 DecomposedPose::root_place(std::size_t t) const {
+  const Skeleton& bones = motion_.skeleton();
+  return bones.above_offset + rotate(bones.above, bones.above_scale * motion_.local_offset(0, t));
+}
+
+Quat DecomposedPose::root_facing(std::size_t t) const {
+  return space_.heading ? about_y(root_.heading[t]) : Quat{};
+}
+
 void DecomposedPose::links(int joint, std::size_t begin, Vec3Track out) const {
   const int at = joint_of_[joint];
   const double stretch = stretch_[joint];

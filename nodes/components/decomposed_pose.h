@@ -23,6 +23,9 @@ class DecomposedPose {
   // The motion's joint, or -1.
   int joint(int of_space) const { return joint_of_[of_space]; }
   const EncodedRoot& root() const { return root_; }
+  // What was taken out of a frame: x = facing⁻¹ (world - place) / above_scale.
+  Vec3 root_place(std::size_t t) const;
+  Quat root_facing(std::size_t t) const;  // R_y(ψ); identity where the heading stays in
   const Motion& motion() const { return motion_; }
   bool heading() const { return space_.heading; }
   // The space's joints with this motion's own bones.

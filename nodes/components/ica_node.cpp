@@ -45,7 +45,7 @@ void compare_skeletons(const ChannelSpace& space, const std::vector<std::shared_
   const Skeleton& first = given.front()->skeleton();
   for (const auto& motion : given) {
     if (motion->shared_skeleton() == given.front()->shared_skeleton()) continue;
-    const auto partner = partners(motion->skeleton(), first, space.map);
+    const auto partner = joints_of(space, motion->skeleton());
     std::vector<bool> still;
     for (int j = 0; j < first.size(); ++j)
       still.push_back(!given.front()->translates(j) && (partner[j] < 0 || !motion->translates(partner[j])));
@@ -111,7 +111,7 @@ NodeType ica_node() {
   NodeType type;
   type.name = "ICA";
   type.category = "components";
-  type.code_version = 5;
+  type.code_version = 6;
   type.help =
       "Splits one or several clips, joined, into independent components: signals over time, each moving the "
       "whole body in its own way.";

@@ -259,7 +259,7 @@ Points points_from_channels(const ChannelSpace& space, const Rows& channels, con
   }
   const DecomposedPose prepared(space, base, work);
   const auto known = flags_of(space);
-  const Skeleton& bones = base.skeleton();
+  const double scale = base.skeleton().above_scale;
   double mean_height = 0;
   for (double y : prepared.root().height) mean_height += y / static_cast<double>(channels.columns);
   RootedPoses poses;
@@ -270,13 +270,11 @@ Points points_from_channels(const ChannelSpace& space, const Rows& channels, con
     positions_at(space, channels, begin, poses, known, positions);
     if (way.limbs) restore_lengths(prepared.skeleton(), known, positions);
     for (std::size_t t = begin; t < begin + poses.frames(); ++t) {
-      const Vec3 root =
-          way.root ? bones.above_offset + rotate(bones.above, bones.above_scale * base.local_offset(0, t))
-                   : Vec3{0, mean_height, 0};
-      const Quat facing = space.heading && way.root ? about_y(prepared.root().heading[t]) : Quat{};
+      const Vec3 root = way.root ? prepared.root_place(t) : Vec3{0, mean_height, 0};
+      const Quat facing = way.root ? prepared.root_facing(t) : Quat{};
       for (std::size_t i = 0; i < space.joints.size(); ++i)
         out.track(static_cast<int>(i))
-            .set(t, root + bones.above_scale * rotate(facing, positions[space.joints[i]][t - begin]));
+            .set(t, root + scale * rotate(facing, positions[space.joints[i]][t - begin]));
     }
   }
   return out;

@@ -235,6 +235,53 @@ TEST(ComponentEdit, SubstitutesAnEditedComponent) {
   EXPECT_NEAR(x(4, 8) - plain(4, 8), 0, 1e-12);
 }
 
+// Points of motions' components stand on the clip's path: nothing of that is an edit.
+TEST(ComponentEdit, SubstitutesPointsOfAMotion) {
+  Alone work;
+  const Components c =
+      analysed({shared(gait("walk", 1)), shared(gait("sneak", 1.3))}, Representation::points, 3, work);
+  const Rows plain = edited(c, {}).channels;
+  const auto shown = std::make_shared<Points>(
+      points_of(c, channels_from_signals(c, signals_of(c, c.segments[0]), {1}), c.segments[0], {}, work));
+  const auto channels = [&] {
+    return edited(c, {edits::Substitute{{2, ""}}}, 0, {nullptr, nullptr, shown}).channels;
+  };
+  const Rows same = channels();
+  for (std::size_t i = 0; i < plain.data.size(); ++i) EXPECT_NEAR(same.data[i], plain.data[i], 1e-12);
+  const auto at = static_cast<std::size_t>(std::find(shown->labels.begin(), shown->labels.end(), "Head") -
+                                           shown->labels.begin());
+  ASSERT_LT(at, shown->labels.size());
+  const int head = static_cast<int>(at);
+  shown->track(head).set(30, shown->track(head)[30] + Vec3{0, 0.2, 0});
+  const Rows moved = channels();
+  EXPECT_NEAR(moved(3 * at + 1, 30) - plain(3 * at + 1, 30), 0.2, 1e-12);
+  EXPECT_NEAR(moved(3 * at + 1, 31) - plain(3 * at + 1, 31), 0, 1e-12);
+}
+
+TEST(ComponentEdit, RefusesToSubstituteAnotherKind) {
+  Alone work;
+  const auto refused = [&](const Components& components, const ComponentEditInputs& inputs) {
+    ComponentEditParams params;
+    params.edits = {edits::Substitute{{1, ""}}};
+    try {
+      edit_components(components, params, inputs, work);
+    } catch (const Failure& failure) {
+      return failure.diagnostic();
+    }
+    return Diagnostic{};
+  };
+  Motion motion = gait("walk", 1);
+  const Components angles =
+      analysed({shared(gait("walk", 1)), shared(gait("sneak", 1.3))}, Representation::euler, 2, work);
+  const auto points = std::make_shared<const Points>(angles.space.labels, 120, motion.frames());
+  const Diagnostic of_points = refused(angles, {nullptr, nullptr, points});
+  EXPECT_EQ(of_points.code, "wrong-kind");
+  EXPECT_THAT(of_points.hint, HasSubstr("`motion`"));
+  const Diagnostic of_motion = refused(small(), {nullptr, shared(motion.empty_like(40)), nullptr});
+  EXPECT_EQ(of_motion.code, "wrong-kind");
+  EXPECT_THAT(of_motion.hint, HasSubstr("`points`"));
+}
+
 // Of edited clips as of signals: what is remembered is what new components find.
 TEST(ComponentEdit, SubstitutesTheSameWithAndWithoutAMemory) {
   for (Representation representation : {Representation::points, Representation::euler}) {

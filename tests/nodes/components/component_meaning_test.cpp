@@ -176,6 +176,8 @@ TEST(ComponentMeaningNode, TellsWhatIsWrong) {
   NodeInMemory pairs(component_meaning_node()), regions(component_meaning_node());
   pairs.link("components", three()).set("pairs", Json::Array(1, Json(Json::Array{0, 5})));
   EXPECT_EQ(pairs.refusal().code, "unknown-segment");
+  pairs.set("pairs", Json::Array(1, Json(Json::Array{1, 1})));
+  EXPECT_EQ(pairs.refusal().code, "bad-pair");
   regions.link("components", three()).set("regions", Json::Object{{"face", "nose"}});
   EXPECT_EQ(regions.refusal().code, "unknown-joint");
 }

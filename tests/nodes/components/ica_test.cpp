@@ -197,6 +197,22 @@ TEST(IcaNode, SurvivesTheDiskCache) {
   EXPECT_TRUE(in.at_end());
 }
 
+TEST(IcaNode, TellsOfAMapThatSaysNothing) {
+  const auto asked = [](const char* representation, const char* entry) {
+    NodeInMemory node(ica_node());
+    node.link("motions", gait("walk", 1)).link("motions", gait("sneak", 1)).set("components", 2);
+    node.set("representation", representation).set("map", Json::Array{entry});
+    return node;
+  };
+  for (const char* representation : {"points", "logarithm"}) {
+    EXPECT_EQ(asked(representation, "Heels=Hips").refusal().code, "unknown-joint");
+    NodeInMemory node = asked(representation, "Hips=Hips");
+    node.run();
+    ASSERT_EQ(node.reported().size(), 1u) << representation;
+    EXPECT_EQ(node.reported()[0].code, "map-unused");
+  }
+}
+
 TEST(IcaNode, RefusesWhatCantBeDecomposed) {
   const Motion walk = gait("walk", 1);
   const auto refusal = [](const Motion& motion, const char* param = nullptr, Json value = {}) {
