@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "headless/draws/camera.h"
+#include "headless/draws/component_moments.h"
 #include "headless/draws/curves.h"
 #include "headless/draws/points_layout.h"
 #include "headless/draws/sheets.h"
@@ -24,44 +25,6 @@ double left_edge() {
 }
 double right_edge() {
   return width - theme::margin;
-}
-
-// What stands at one moment: the frame of the joined signals, its segment, and the frame of that.
-struct Moment {
-  std::size_t frame, segment, own_frame;
-  double x;  // on the page
-};
-// How many stand in the strip: about a dozen, and so many that the poses of a gait don't all fall on the same
-// phases of its cycle or of half of it, as the strip would seem to stand still then.
-int count_of_moments(const Components& components) {
-  constexpr int usual = 12, least = 10, most = 14;
-  for (const auto& cadence : cadences_of(components)) {  // by variance: the first that swings
-    if (!cadence) continue;
-    const auto off_phase = [&](int count) {
-      const double halves =
-          2 * cadence->hertz * static_cast<double>(components.frames()) / components.fps / count;
-      return std::fabs(halves - std::round(halves));
-    };
-    int best = usual;
-    for (int count = least; count <= most; ++count)
-      if (off_phase(count) > 1.2 * off_phase(best)) best = count;
-    return best;
-  }
-  return usual;
-}
-std::vector<Moment> moments_of(const Components& components) {
-  const int moments = count_of_moments(components);
-  std::vector<Moment> out;
-  for (int i = 0; i < moments; ++i) {
-    const double part = (i + 0.5) / moments;
-    const auto frame = static_cast<std::size_t>(part * static_cast<double>(components.frames()));
-    for (std::size_t s = 0; s < components.segments.size(); ++s) {
-      const ComponentSegment& segment = components.segments[s];
-      if (frame >= segment.start && frame < segment.end)
-        out.push_back({frame, s, frame - segment.start, left_edge() + part * (right_edge() - left_edge())});
-    }
-  }
-  return out;
 }
 
 Points rebuilt(const Components& components, const ComponentSegment& segment,
@@ -143,7 +106,7 @@ class Painter {
       : canvas_(canvas),
         components_(components),
         work_(work),
-        moments_(moments_of(components)),
+        moments_(even_moments(components)),
         cloud_(cloud_of(components, work)),
         tallest_(tallest_of(components, moments_, work)) {}
 
@@ -164,8 +127,14 @@ class Painter {
     return times;
   }
 
+  // The moments at which these components are shown.
+  std::vector<Moment> moments(const std::vector<std::size_t>& entries) const {
+    return entries.size() == 1 ? telling_moments(components_, moments_, entries.front()) : moments_;
+  }
+
   // Poses of these components at the moments, standing on `floor`.
   void strip(const std::vector<std::size_t>& entries, double times, double floor) const {
+    const auto shown = moments(entries);
     if (components_.space.of_motions)
       canvas_.fill(
           rectangle(left_edge(), floor - 7, right_edge() - left_edge(), 14),
@@ -174,11 +143,11 @@ class Painter {
     for (std::size_t s = 0; s < components_.segments.size(); ++s) {
       const ComponentSegment& segment = components_.segments[s];
       if (!segment.motion) {
-        dots(rebuilt(components_, segment, entries, work_), s, times, floor);
+        dots(rebuilt(components_, segment, entries, work_), s, shown, times, floor);
         continue;
       }
       const Rows x = channels_from_signals(components_, signals_of(components_, segment), entries);
-      figures(motion_of(components_, x, segment, {true, false}, work_), s, floor);
+      figures(motion_of(components_, x, segment, {true, false}, work_), s, shown, floor);
     }
   }
 
@@ -221,6 +190,13 @@ class Painter {
         if (line.size() > 1) canvas_.stroke(polyline(line), {theme::series(static_cast<int>(i)), 1.5});
       }
     }
+    // What the strip above shows, on a component's own line.
+    if (entries.size() == 1)
+      for (const Moment& moment : moments(entries))
+        canvas_.fill(
+            ellipse({x_of(moment.frame), middle - scale * components_.signals(entries[0], moment.frame)}, 2.4,
+                    2.4),
+            theme::series(static_cast<int>(entries[0])));
   }
 
  private:
@@ -229,30 +205,36 @@ class Painter {
                              (right_edge() - left_edge());
   }
 
+  static double x_of(const Moment& moment) {
+    return left_edge() + moment.part * (right_edge() - left_edge());
+  }
+
   // All figures from one side, half in front: they face along the page.
-  void figures(const Motion& motion, std::size_t segment, double floor) const {
+  void figures(const Motion& motion, std::size_t segment, const std::vector<Moment>& shown,
+               double floor) const {
     const Figure figure(motion.skeleton());
     const Camera camera({-1, 0, 0.35}, 0.12, (figure_height - 8) / (1.04 * tallest_));
-    for (const Moment& moment : moments_)
+    for (const Moment& moment : shown)
       if (moment.segment == segment)
-        figure.draw_shadow(canvas_, camera, pose_at(motion, moment.own_frame), {}, {moment.x, floor}, 0);
-    for (const Moment& moment : moments_)
+        figure.draw_shadow(canvas_, camera, pose_at(motion, moment.own_frame), {}, {x_of(moment), floor}, 0);
+    for (const Moment& moment : shown)
       if (moment.segment == segment)
-        figure.draw(canvas_, camera, pose_at(motion, moment.own_frame), {}, {moment.x, floor});
+        figure.draw(canvas_, camera, pose_at(motion, moment.own_frame), {}, {x_of(moment), floor});
   }
 
   // Points at the moments, `times` as far from their mean as they are, with a line from there.
-  void dots(const Points& points, std::size_t segment, double times, double floor) const {
-    const double room = (right_edge() - left_edge()) / static_cast<double>(moments_.size()) - 8;
+  void dots(const Points& points, std::size_t segment, const std::vector<Moment>& shown, double times,
+            double floor) const {
+    const double room = (right_edge() - left_edge()) / static_cast<double>(shown.size()) - 8;
     const double scale =
         std::min((figure_height - 10) / std::max(cloud_.high.y - cloud_.low.y, 1e-6),
                  room / std::max({cloud_.high.x - cloud_.low.x, 0.4 * (cloud_.high.z - cloud_.low.z), 1e-6}));
     const Camera camera({0.25, 0, 1}, 0.05, scale);
     const Vec3 middle = 0.5 * (cloud_.low + cloud_.high);
-    for (const Moment& moment : moments_) {
+    for (const Moment& moment : shown) {
       if (moment.segment != segment) continue;
       const auto page = [&](Vec3 place) {
-        return Spot{moment.x, floor - figure_height / 2} + camera.project(place - middle);
+        return Spot{x_of(moment), floor - figure_height / 2} + camera.project(place - middle);
       };
       const auto place = [&](int label) {
         const Vec3 rest = cloud_.mean[static_cast<std::size_t>(label)];

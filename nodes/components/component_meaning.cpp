@@ -129,7 +129,9 @@ Beat beat_of(const double* u, std::size_t frames) {
         (best == 0 ||
          correlation[lag] > 1.1 * correlation[best]))  // a multiple of the period must be clearly better
       best = lag;
-  if (best == 0 || correlation[best] < 0.3 * correlation[0] || correlation[best] <= 1e-12) return {};
+  // Of the whole signal's variance, 1, next to nothing repeats here where the component rests.
+  constexpr double least = 0.01;
+  if (best == 0 || correlation[best] < 0.3 * correlation[0] || correlation[best] < least) return {};
   return {best, correlation[best]};
 }
 

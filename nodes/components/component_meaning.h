@@ -14,9 +14,9 @@
 namespace kinegraph {
 
 // How often signals repeat, in Hz: the highest peak of a signal's autocorrelation after it first falls below
-// zero, if it reaches 0.3 of its variance. Clips that are joined have beats of their own, so all components
-// are measured in one segment: the first in which at least half as much of the variance repeats as in any.
-// Only a component that has no beat there takes it from another segment.
+// zero, if it reaches 0.3 of its variance there and 0.01 of the whole signal's. Clips that are joined have
+// beats of their own, so all components are measured in one segment: the first in which at least half as much
+// of the variance repeats as in any. Only a component that has no beat there takes it from another segment.
 struct Cadence {
   double hertz = 0;
   std::size_t segment = 0;  // where it was measured

@@ -71,7 +71,7 @@ NodeType component_meaning_node() {
   type.param("emotion", std::move(emotion),
              "The components that carry the emotion. Empty: the one with the largest d_emotion.");
   type.param("regions", table(pattern("*")), "Parts of the body: a name and a pattern of joints each.");
-  type.code_version = 4;
+  type.code_version = 5;
   type.compute = explain;
   return type;
 }

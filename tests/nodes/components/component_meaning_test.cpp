@@ -99,6 +99,16 @@ TEST(ComponentMeaningOf, FindsCadenceAndWhatMoves) {
 }
 
 // Joined clips have beats of their own; numbers beside each other are of one of them.
+// A jaw that opens steadily in its own clip, and trembles by next to nothing in the brows'.
+TEST(ComponentMeaningOf, FindsNoCadenceWhereAComponentRests) {
+  Components c = three();
+  for (std::size_t t = 0; t < 100; ++t) c.signals(1, t) = 0.05 * sine(2 * pi * static_cast<double>(t) / 10);
+  const auto cadence = cadences_of(c)[1];
+  ASSERT_TRUE(cadence);
+  EXPECT_EQ(cadence->segment, 1u);
+  EXPECT_NEAR(cadence->hertz, 2, 0.05);
+}
+
 TEST(ComponentMeaningOf, MeasuresAllCadencesInOneSegment) {
   Components c = three();
   const auto swing = [&](std::size_t i, std::size_t start, double period, double size) {
