@@ -22,6 +22,11 @@ void put(Rows& rows, std::size_t row, std::size_t t, Vec3 v) {
   rows(row + 2, t) = v.z;
 }
 
+Vec3 angles_near(Quat q, const std::string& order, const double* near) {
+  const auto angles = to_euler(q, order, near);
+  return {unwrapped(angles[0], near[0]), unwrapped(angles[1], near[1]), unwrapped(angles[2], near[2])};
+}
+
 }  // namespace
 
 Rows channels_of(const ChannelSpace& space, const Motion& motion, const std::vector<double>& before,
@@ -63,10 +68,20 @@ Rows channels_of(const ChannelSpace& space, const Motion& motion, const std::vec
         double near[3] = {};
         for (std::size_t c = 0; c < 3; ++c)
           near[c] = t > 0 ? out(row + c, t - 1) : before.empty() ? 0 : before[row + c];
-        auto angles = to_euler(q, space.orders[i], near);
-        for (std::size_t c = 0; c < 3; ++c) out(row + c, t) = unwrapped(angles[c], near[c]);
+        put(out, row, t, angles_near(q, space.orders[i], near));
       }
     }
+  }
+  return out;
+}
+
+std::vector<double> first_angles_of(const ChannelSpace& space, const Motion& motion,
+                                    const std::vector<double>& before, Work& work) {
+  const DecomposedPose prepared(space, motion, work);
+  std::vector<double> out;
+  for (std::size_t i = 0; i < space.joints.size(); ++i) {
+    const Vec3 angles = angles_near(prepared.local(space.joints[i], 0), space.orders[i], &before[3 * i]);
+    out.insert(out.end(), {angles.x, angles.y, angles.z});
   }
   return out;
 }

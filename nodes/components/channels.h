@@ -63,6 +63,10 @@ std::vector<int> joints_of(const ChannelSpace& space, const Skeleton& skeleton);
 // full turns at a seam; may be empty. Throws as the spaces above where the clip lacks what is needed.
 Rows channels_of(const ChannelSpace& space, const Motion& motion, const std::vector<double>& before,
                  Work& work);
+// Of Euler angles the first column of that, on which, beside the motion, all the others depend. The motion
+// has frames and all joints; `before` isn't empty.
+std::vector<double> first_angles_of(const ChannelSpace& space, const Motion& motion,
+                                    const std::vector<double>& before, Work& work);
 Rows channels_of(const ChannelSpace& space, const Points& points, Work& work);
 // Of points that stand on a motion's path, as points_from_channels puts them there; the space is of positions
 // of motions. Throws as space_of_points where the clip lacks what is needed.

@@ -10,6 +10,7 @@
 #include "nodes/components/alignment.h"
 #include "nodes/components/held_frames.h"
 #include "nodes/components/rebuild.h"
+#include "nodes/components/shown_channels.h"
 #include "nodes/node_params.h"
 #include "nodes/time/displacement.h"
 #include "nodes/time/lowpass.h"
@@ -246,21 +247,19 @@ class Editing {
   // ComponentMotion gave a clip with whole bones; what that alone changed is no edit. `alone`: the component
   // as it is now.
   void add_edited_motion(Rows& added, const Rows& alone, const std::vector<std::size_t>& entries) {
-    std::vector<double> near;  // only Euler angles have turns to count
-    if (now_.space.representation == Representation::euler)
-      for (std::size_t d = 0; d < alone.rows; ++d) near.push_back(alone(d, 0));
+    const Motion& motion = *inputs_.edited_motion;
     ShownKey key{{base().motion}, entries, {}};
     for (std::size_t i : entries) key.signals.insert(key.signals.end(), u_.row(i), u_.row(i) + frames());
     const auto shown = now_.memory->shown.get(
-        key,
-        [&](Work& work) {
-          const Motion motion = motion_from_channels(now_.space, alone, *base().motion, {}, work);
-          return channels_of(now_.space, motion, near, work);
-        },
-        work_);
+        key, [&](Work& work) { return channels_as_shown(now_.space, alone, *base().motion, work); }, work_);
+    std::vector<double> near, first;  // only Euler angles have turns to count
+    if (now_.space.representation == Representation::euler && frames() > 0) {
+      for (std::size_t d = 0; d < alone.rows; ++d) near.push_back(alone(d, 0));
+      first = first_angles_of(now_.space, motion, near, work_);
+    }
     const auto edited = now_.memory->edited.get(
-        {{inputs_.edited_motion}, near},
-        [&](Work& work) { return channels_of(now_.space, *inputs_.edited_motion, near, work); }, work_);
+        {{inputs_.edited_motion}, first},
+        [&](Work& work) { return channels_of(now_.space, motion, near, work); }, work_);
     add(added, *edited, *shown);
   }
   void add_edited_points(Rows& added, const Rows& alone) {

@@ -39,7 +39,7 @@ struct ShownKey {
 // All that the channels of a changed ComponentMotion depend on.
 struct EditedKey {
   SameClip clip;
-  std::vector<double> near;  // of Euler angles: where the first frame's full turns are counted from
+  std::vector<double> first;  // of Euler angles: the first frame's, which says how full turns are counted
   bool operator==(const EditedKey&) const = default;
 };
 

@@ -105,6 +105,8 @@ EDIT_VALUE(
       ->UseRealTime()                                                                                     \
       ->MeasureProcessCPUTime()
 EDIT_VALUE_IN(quaternions);
+EDIT_VALUE_IN(euler);
+EDIT_VALUE_IN(logarithm);
 
 }  // namespace
 }  // namespace kinegraph
