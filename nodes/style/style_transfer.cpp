@@ -318,7 +318,8 @@ void report_gains(const std::vector<JointGain>& gains, const Skeleton& skeleton,
     const std::string& name = skeleton.joints[static_cast<std::size_t>(gain.joint)].name;
     if (gain.bounded) bounded += (bounded.empty() ? "" : ", ") + name;
     const double reach = gain.gain * gain.largest_turn;
-    if (reach < fold_limit) continue;
+    // A gain of 1 turns deviations as they are, however far they go.
+    if (reach < fold_limit || gain.gain == 1) continue;
     const char* what =
         reach < pi ? "comes near the half-turn where rotations fold over" : "folds over past a half-turn";
     work.report(
@@ -356,6 +357,12 @@ StyleTransferResult style_transfer(const Motion& motion, const Stats& style, con
     own = &*measured;
   }
   const std::vector<Source> sources = sources_of(motion, style, *own, params, work);
+  if (!params.weights.empty() &&
+      std::all_of(params.weights.begin(), params.weights.end(), [](double weight) { return weight == 0; })) {
+    StyleTransferResult unchanged;
+    unchanged.motion = motion;
+    return unchanged;
+  }
 
   const bool moves_root = sources.front().style &&
                           (params.root != TransferredRoot::none || params.heading == HeadingKind::transfer);

@@ -344,6 +344,8 @@ TEST(StyleTransfer, WithNoAmountIsTheInput) {
   }
   for (std::size_t t = 0; t < walk.frames(); ++t)
     EXPECT_LT(norm(result.translation(0)[t] - walk.translation(0)[t]), 1e-12);
+  EXPECT_TRUE(told_by(walk, stats_of(gait("sneak")), params).empty())
+      << "nothing of a change that isn't made";
 }
 
 TEST(StyleTransfer, HalfTheAmountIsHalfWay) {
@@ -425,6 +427,20 @@ TEST(StyleTransfer, WarnsWhereAJointFoldsOver) {
   StyleTransferParams bounded;
   bounded.max_gain = 2;
   EXPECT_FALSE(find(told_by(source, style, bounded), "fold-over"));
+}
+
+TEST(StyleTransfer, FoldsNothingOverThatItTurnsAsItIs) {
+  SmallMotion stray = lively();
+  stray.head = [](double s) {
+    return about_y(std::lround(s * 120) == 77 ? 175 / degrees : 0.02 * std::sin(6 * s));
+  };
+  const Motion source = stray.made(240);
+  StyleTransferParams mean;
+  mean.transfer = TransferredPart::mean;
+  EXPECT_FALSE(find(told_by(source, stats_of(bowed().made(240)), mean), "fold-over"));
+  const Motion result = transferred(source, stats_of(bowed().made(240)), mean).motion;
+  EXPECT_NEAR(turn(result.rotation(2)[76], result.rotation(2)[77]),
+              turn(source.rotation(2)[76], source.rotation(2)[77]), 1e-9);
 }
 
 TEST(StyleTransfer, TakesStatisticsOfTheMotionThatWereMadeElsewhere) {
