@@ -46,7 +46,13 @@ std::vector<double> above_plants(const FootTrack::Part& part, double contacts_fl
   std::vector<double> heights = part.heights;
   std::sort(heights.begin(), heights.end());
   const double stands = floor ? *floor + heights[heights.size() / 2] - contacts_floor : heights.front();
-  for (std::size_t t = 0; t < limits.size(); ++t) limits[t] = std::max(least, stands - below[t]);
+  // On a slope or on stairs the foot comes from, and goes to, places that no plant tells of.
+  constexpr double uneven = 0.06;  // m
+  const bool level = floor || heights.back() - heights.front() < uneven;
+  const std::vector<Run> plants = runs_of(part.planted);
+  for (std::size_t t = 0; t < limits.size(); ++t)
+    if (level || (t >= plants.front().start && t < plants.back().end))
+      limits[t] = std::max(least, stands - below[t]);
   return limits;
 }
 
@@ -57,45 +63,86 @@ bool any(const std::vector<double>& need) {
 // Turns that bring the far end of something rigid above a height.
 class Raising {
  public:
-  Raising(std::size_t frames, double most) : most_(most), need_(frames, 0.0), axis_(frames) {}
+  Raising(std::size_t frames, double most) : most_(most), along_(frames), wanted_(frames), asked_(frames) {}
 
   // In this frame it turns about `at` and reaches `along` from there.
   void ask(std::size_t t, Vec3 at, Vec3 along, double height) {
-    const double length = norm(along), wanted = length > 0 ? (height - at.y) / length : 0;
-    const Vec3 side{along.z, 0, -along.x};
-    if (norm(side) <= 1e-6 * length || along.y >= wanted * length) return;
-    // About this axis a positive turn takes the end down.
-    axis_[t] = normalized(side);
-    need_[t] = std::min(elevation(wanted) - elevation(along.y / length), most_);
+    wanted_[t] = height - at.y;
+    along_[t] = along;
+    asked_[t] = norm(along) > 0 && along.y < wanted_[t];
   }
   // World turns, none in `fixed` frames; empty where nothing was asked. What rises before and after the
-  // frames that asked turns about the axis of the nearest: the foot's own would swing round where it hangs.
+  // frames that asked turns about their axes: the foot's own would swing round where it hangs.
   std::vector<Quat> turns(const std::vector<bool>& fixed, double fps, double blend) const {
-    if (!any(need_)) return {};
-    const std::vector<double> rise = rise_smoothly(need_, fixed, fps, blend);
-    std::vector<Quat> turns(need_.size());
-    std::size_t before = next_asked(0), after = before;  // the asking frames on both sides
+    std::vector<Vec3> axes(asked_.size());
+    std::vector<double> need(asked_.size(), 0.0);
+    for (const Run& section : sections(static_cast<std::size_t>(blend * fps)))
+      ask_together(section, axes, need);
+    if (!any(need)) return {};
+    const std::vector<double> rise = rise_smoothly(need, fixed, fps, blend);
+    std::vector<Quat> turns(need.size());
+    std::size_t before = next_asked(need, 0), after = before;  // the asking frames on both sides
     for (std::size_t t = 0; t < turns.size(); ++t) {
       if (t > after) {
         before = after;
-        after = next_asked(t);
+        after = next_asked(need, t);
       }
-      const bool nearer_after = after < need_.size() && t > before && after - t < t - before;
-      turns[t] = axis_angle(axis_[nearer_after ? after : before], -rise[t]);
+      turns[t] = axis_angle(between(axes, before, after, t), -rise[t]);
     }
     return turns;
   }
 
  private:
-  std::size_t next_asked(std::size_t from) const {
-    while (from < need_.size() && need_[from] <= 0) ++from;
+  static std::size_t next_asked(const std::vector<double>& need, std::size_t from) {
+    while (from < need.size() && need[from] <= 0) ++from;
     return from;
   }
-  static double elevation(double sine) { return pi / 2 - arc_cosine(std::clamp(sine, -1.0, 1.0)); }
+  static Vec3 between(const std::vector<Vec3>& axes, std::size_t before, std::size_t after, std::size_t t) {
+    if (after >= axes.size() || t <= before) return axes[before];
+    if (dot(axes[before], axes[after]) <= 0) return axes[after - t < t - before ? after : before];
+    const double u = static_cast<double>(t - before) / static_cast<double>(after - before);
+    return normalized((1 - u) * axes[before] + u * axes[after]);
+  }
+  // Frames that ask, and short gaps between them.
+  std::vector<Run> sections(std::size_t gap) const {
+    std::vector<Run> all;
+    for (const Run& run : runs_of(asked_)) {
+      if (!all.empty() && run.start <= all.back().end + gap)
+        all.back().end = run.end;
+      else
+        all.push_back(run);
+    }
+    return all;
+  }
+  // A section turns to one side all along: what hangs straight down, or passes there, would turn one way in
+  // one frame and the other way in the next if each frame took its own shorter way up.
+  void ask_together(Run section, std::vector<Vec3>& axes, std::vector<double>& need) const {
+    constexpr double upright = 0.3;  // of the length: level parts under this tell too little of a direction
+    Vec3 common;
+    for (std::size_t t = section.start; t < section.end; ++t)
+      if (asked_[t]) common += sideways(along_[t]) / norm(along_[t]);
+    if (norm(common) <= 1e-6) return;
+    common = normalized(common);
+    for (std::size_t t = section.start; t < section.end; ++t) {
+      if (!asked_[t]) continue;
+      const double length = norm(along_[t]);
+      Vec3 side = sideways(along_[t]) / length;
+      if (dot(side, common) < 0) side = -side;
+      // About this axis a positive turn takes the end down.
+      axes[t] = normalized(side + std::max(0.0, upright - norm(side)) * common);
+      const double ahead = along_[t].x * -axes[t].z + along_[t].z * axes[t].x;
+      const double reach = std::sqrt(ahead * ahead + along_[t].y * along_[t].y);
+      const double down = arc_tangent2(-along_[t].y, ahead);
+      const double up = arc_sine(wanted_[t] / reach);
+      need[t] = std::clamp(up + down, 0.0, most_);
+    }
+  }
+  static Vec3 sideways(Vec3 along) { return {along.z, 0, -along.x}; }
 
   double most_;
-  std::vector<double> need_;
-  std::vector<Vec3> axis_;
+  std::vector<Vec3> along_;
+  std::vector<double> wanted_;  // height of the end above where it turns about, m
+  std::vector<bool> asked_;
 };
 
 }  // namespace

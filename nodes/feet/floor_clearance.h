@@ -21,8 +21,9 @@ struct FloorLimits {
 // joints, with the sole far below, and balls have some of it below them: a swinging foot passes above the
 // lowest place where that part of it stands, less 5 mm. Beside the foot's plants, and before the first and
 // after the last, less 22 mm, by which heels that strike and toes that push off go deeper in captured walks
-// and runs. Never lower than the tips' limit, for heels half-way from there to their usual height. `floor`:
-// instead of the contacts' own.
+// and runs. Never lower than the tips' limit, for heels half-way from there to their usual height; no higher
+// than that before a foot's first plant and after its last where its plants lie 6 cm apart or more: on slopes
+// and stairs. `floor`: instead of the contacts' own.
 FloorLimits floor_limits(const Contacts& contacts, const FootTrack& foot, std::optional<double> floor);
 
 // A foot that only its ball holds turns about it, by up to 30°, where its heel

@@ -76,7 +76,7 @@ NodeType footskate_node() {
   add_range_param(type);
   add_fade_param(type);
   add_amount_param(type);
-  type.code_version = 7;
+  type.code_version = 8;
   type.compute = clean;
   return type;
 }

@@ -192,6 +192,40 @@ TEST(Footskate, KeepsSwingingFeetAboveTheFloor) {
   }
 }
 
+// The motion on a ground that rises along its path.
+Motion on_slope(Motion motion, double rise) {
+  const Vec3Track root = motion.translation(0);
+  Vec3 path = root[motion.frames() - 1] - root[0];
+  path.y = 0;
+  path = normalized(path);
+  const Vec3 start = root[0];
+  for (std::size_t t = 0; t < motion.frames(); ++t)
+    root.set(t, root[t] + Vec3{0, rise * dot(root[t] - start, path), 0});
+  return motion;
+}
+class FootskateOnSlopes : public testing::TestWithParam<std::tuple<std::string, double>> {};
+INSTANTIATE_TEST_SUITE_P(Footskate, FootskateOnSlopes,
+                         testing::Combine(testing::Values("walk", "strut", "cmu/bvh/07_01.bvh",
+                                                          "cmu/asfamc/35_01.amc"),
+                                          testing::Values(-0.12, 0.12)));
+TEST_P(FootskateOnSlopes, StandsStillWithoutAPop) {
+  const auto& [name, rise] = GetParam();
+  if (name.find('/') != name.npos) KINEGRAPH_NEEDS_MOCAP();
+  const Motion motion = on_slope(name.find('/') == name.npos ? gait_motion(name) : clip(name), rise);
+  DetectContactsParams anywhere;
+  anywhere.height = 3;
+  Alone work;
+  const Contacts contacts = detect_contacts(motion, anywhere, work);
+  const Motion result = cleaned(motion, contacts).motion;
+  EXPECT_LT(largest_slip(result, contacts), 0.001);
+  EXPECT_LT(largest_difference(motion, result), 0.1);
+  const WorldMotion before = world_motion(motion), after = world_motion(result);
+  for (int joint = 0; joint < motion.joints(); ++joint)
+    EXPECT_LT(largest_acceleration(after, joint, motion.fps()),
+              1.25 * largest_acceleration(before, joint, motion.fps()))
+        << motion.skeleton().joints[joint].name;
+}
+
 TEST(Footskate, KeepsWhereTheWalkGoes) {
   const Motion motion = drifted(gait_motion("walk"), 0.15, 0.1);
   const Motion result = cleaned(motion, contacts_of(motion)).motion;
