@@ -230,7 +230,7 @@ TEST(EditorOnDisk, ANodeOfAnUnknownTypeIsKeptAndSaid) {
   Editor::settle();
   bool told = false;
   for (QLabel* label : editor.window.findChildren<QLabel*>())
-    told = told || (label->isVisible() && label->text().contains("install the version that made it"));
+    told = told || (label->isVisible() && label->text().contains("Install the Kinegraph that made it"));
   EXPECT_TRUE(told);
   editor.add("gait");
   editor.key(Qt::Key_S, Qt::ControlModifier);
@@ -377,7 +377,7 @@ TEST(EditorOnDisk, ABrokenGraphIsToldWholeInTheDialogAndInTheProblemsDock) {
   });
   EXPECT_FALSE(editor.window.open(path));
   for (const char* slip :
-       {"line 2", "\"speed\"", "soft.motion, line 3", "wolk", "feet.motion, line 4", "motoin"})
+       {"line 2", "“speed”", "soft.motion, line 3", "wolk", "feet.motion, line 4", "motoin"})
     EXPECT_TRUE(told.contains(slip)) << slip << "\n" << told.toStdString();
   EXPECT_FALSE(told.contains(editor.folder.path())) << told.toStdString();
   EXPECT_EQ(tip, path);

@@ -1,6 +1,7 @@
 // Writes the pictures of docs/editor: every port type, node state, dock, dialog, error and empty state.
-//   editor_screenshots FOLDER dark|light|large|qpainter [PART…]
-// PART: graph, gestures, viewer, docks, menus, others, troubles; all of them where none is given.
+//   editor_screenshots FOLDER dark|light|qpainter [PART…]
+//   editor_screenshots FOLDER scaled END
+// PART: graph, gestures, viewer, docks, menus, others, states, troubles; all of them where none is given.
 #include <QCheckBox>
 #include <QMessageBox>
 #include <QStandardPaths>
@@ -296,17 +297,18 @@ int main(int argc, char** argv) {
   QApplication::setApplicationVersion(KINEGRAPH_VERSION);
   QApplication::setStyle(new kinegraph::EditorStyle);
   if (argc < 3) {
-    std::fprintf(stderr, "editor_screenshots FOLDER dark|light|large|qpainter [PART…]\n");
+    std::fprintf(stderr, "editor_screenshots FOLDER dark|light|qpainter [PART…] or FOLDER scaled END\n");
     return 2;
   }
   using namespace kinegraph;
   const QDir into(argv[1]);
   const QString what = argv[2];
   QDir().mkpath(into.path());
-  if (what == "large") {
-    // With QT_SCALE_FACTOR=2 in the environment: the same windows with twice the pixels.
+  if (what == "scaled" && argc > 3) {
+    // With QT_SCALE_FACTOR or QT_FONT_DPI in the environment: the same windows with more pixels or larger
+    // words.
     for (const Theme* theme : {&dark_theme(), &light_theme()}) {
-      const QString end = theme->dark ? "_large" : "_light_large";
+      const QString end = (theme->dark ? "_" : "_light_") + QString(argv[3]);
       shots::Shot shot(*theme, into, {1280, 800});
       shot.open("component_edit");
       shot.select("edit");
@@ -330,7 +332,7 @@ int main(int argc, char** argv) {
       {"graph", shots::graph_pictures},     {"gestures", shots::gestures},
       {"viewer", shots::viewer_pictures},   {"docks", shots::docks},
       {"menus", shots::menus_and_messages}, {"others", shots::less_common_pictures},
-      {"troubles", shots::troubles}};
+      {"states", shots::state_pictures},    {"troubles", shots::troubles}};
   for (const auto& [part, take] : parts)
     if (wanted.isEmpty() || wanted.contains(part)) take(theme, into, end);
   return 0;

@@ -152,6 +152,7 @@ struct Shot {
 
 // Into the folder, with names that end in `end`.
 void viewer_pictures(const Theme& theme, const QDir& into, const QString& end);
+void state_pictures(const Theme& theme, const QDir& into, const QString& end);
 void less_common_pictures(const Theme& theme, const QDir& into, const QString& end);
 void menus_and_messages(const Theme& theme, const QDir& into, const QString& end);
 
