@@ -195,6 +195,11 @@ void GraphCanvas::edit_text(QRectF graph, const QString& text, std::function<voi
   edit->setPlainText(text);
   edit->selectAll();
   const QRect place = QRectF(to_view(graph.topLeft()), to_view(graph.bottomRight())).toRect();
+  if (const bool one_line = graph.height() < 40; one_line) {
+    edit->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    edit->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    edit->setLineWrapMode(QPlainTextEdit::NoWrap);
+  }
   const int words = std::clamp(edit->fontMetrics().horizontalAdvance(text) + 48, 110, 160);
   edit->setGeometry(
       QRect(place.topLeft(), QSize(std::max(words, place.width()), std::max(30, place.height()))));

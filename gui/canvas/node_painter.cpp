@@ -178,6 +178,8 @@ QString instead_of_still(NodeStatus::State state) {
       return QObject::tr("waits for its turn");
     case State::running:
       return QObject::tr("in the making");
+    case State::cancelled:
+      return QObject::tr("stopped before it was done");
     case State::blocked:
       return QObject::tr("waits for what is before it");
     case State::incomplete:
@@ -270,7 +272,7 @@ void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, No
   const auto wide = [&](double at) { return QFontMetricsF(font_of(at, true)).horizontalAdvance(name); };
   const Still* known = status ? status->still.get() : nullptr;
   const bool with_still = !node.still.isNull() && zoom >= 0.3 && known && !known->limbs.empty();
-  const double largest = std::clamp(11 * pixel, 14.0, 44.0), smallest = 9.2 * pixel;
+  const double largest = std::clamp(10.6 * pixel, 14.0, 44.0), smallest = 9.2 * pixel;
   const double type_pixels = 9 * pixel, type_line = type_pixels * 1.35;
   const double below = with_still ? 0.42 * box.height() : 0;
   const double room = box.height() - top_edge - below;

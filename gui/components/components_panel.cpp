@@ -296,6 +296,8 @@ void ComponentsPanel::take_values() {
     } else if (status && status->state == NodeStatus::State::blocked) {
       empty_->setText(tr("%1 waits for a node before it that failed or is not linked. Problems tells which.")
                           .arg(QString::fromStdString(components_.node)));
+    } else if (status && status->state == NodeStatus::State::cancelled) {
+      empty_->setText(tr("%1 was cancelled.").arg(QString::fromStdString(components_.node)));
     } else {
       empty_->setText(tr("Finding the components of %1…").arg(QString::fromStdString(components_.node)));
     }

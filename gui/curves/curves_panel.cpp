@@ -274,6 +274,8 @@ QString CurvesPanel::why_not(const Offer& offer) const {
           .arg(node);
     case State::incomplete:
       return tr("%1 isn't linked yet.").arg(node);
+    case State::cancelled:
+      return tr("%1 was cancelled.").arg(node);
     default:
       return tr("Evaluating %1…").arg(offer.name);
   }
@@ -282,8 +284,9 @@ QString CurvesPanel::why_not(const Offer& offer) const {
 void CurvesPanel::take_values() {
   const Offer* one = offer();
   const bool channels = one && one->type == "Motion";
-  joint_->setVisible(channels);
-  channel_->setVisible(channels);
+  const bool there = one && evaluation_.value(one->result.node, one->result.port);
+  joint_->setVisible(channels && (there || joint_->count() > 0));
+  channel_->setVisible(channels && (there || joint_->count() > 0));
   what_->setVisible(one != nullptr);
   if (!one) return tell(tr("Choose a node to see its channels, statistics or warp as curves."));
   if (!visible_) return;

@@ -11,7 +11,18 @@ bool of_a_clip(const Diagnostic& problem) {
   return !problem.file.empty() && !QString::fromStdString(problem.file).endsWith(".kg.json");
 }
 
-// Quotes as the editor's own words have them: what stands in "", '' or `` between words.
+// As a person writes: a capital at the start, where that is a word and no name, and a stop at the end.
+QString sentence(QString text) {
+  int letters = 0;
+  while (letters < text.size() && text[letters].isLetter()) ++letters;
+  if (letters > 0 && letters < text.size() && (text[letters] == ' ' || text[letters] == ','))
+    text[0] = text[0].toUpper();
+  if (!text.isEmpty() && !QString(".!?:…").contains(text.back())) text += '.';
+  return text;
+}
+
+}  // namespace
+
 QString with_quotes(const QString& text) {
   static const QRegularExpression plain(R"(\"([^\"\n]*)\"|`([^`\n]*)`|(?<![\w'])'([^'\n]*)'(?![\w']))");
   QString quoted;
@@ -24,18 +35,6 @@ QString with_quotes(const QString& text) {
   }
   return quoted + text.mid(from);
 }
-
-// As a person writes: a capital at the start, where that is a word and no name, and a stop at the end.
-QString sentence(QString text) {
-  int letters = 0;
-  while (letters < text.size() && text[letters].isLetter()) ++letters;
-  if (letters > 0 && letters < text.size() && (text[letters] == ' ' || text[letters] == ','))
-    text[0] = text[0].toUpper();
-  if (!text.isEmpty() && !QString(".!?:…").contains(text.back())) text += '.';
-  return text;
-}
-
-}  // namespace
 
 QString problem_text(const Diagnostic& problem) {
   QString text = with_quotes(QString::fromStdString(problem.message));

@@ -6,6 +6,8 @@
 
 namespace kinegraph {
 
+// With the quotes of the editor's own words around what stands in "", '' or ``.
+QString with_quotes(const QString& text);
 // What was found, with joint, frame, and the line of the file where they are known.
 QString problem_text(const Diagnostic& problem);
 // Where in a graph it is: "walk.speed, line 12". Empty where that isn't known.

@@ -24,6 +24,8 @@ QString chosen(QFileDialog& dialog, const QString& start, const QString& filter)
     files->header()->setStretchLastSection(false);
     files->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
     files->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+    files->header()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    files->header()->setFixedHeight(files->fontMetrics().height() + 12);
     files->setColumnHidden(2, true);  // the kind is told by the name's end
   }
   // What is typed or pasted replaces the name that is offered, and the one that is marked in the list.
@@ -38,6 +40,11 @@ QString chosen(QFileDialog& dialog, const QString& start, const QString& filter)
   }
   if (auto* places = dialog.findChild<QListView*>("sidebar")) places->setIconSize({16, 16});
   dialog.setSizeGripEnabled(false);
+  if (folder) {
+    dialog.setLabelText(QFileDialog::FileName, QObject::tr("Folder:"));
+    for (const char* kind : {"fileTypeLabel", "fileTypeCombo"})
+      if (auto* part = dialog.findChild<QWidget*>(kind)) part->hide();
+  }
   return dialog.exec() && !dialog.selectedFiles().isEmpty() ? dialog.selectedFiles().first() : QString();
 }
 

@@ -226,7 +226,7 @@ QScrollBar::handle { background: %3; border-radius: 4px; min-height: 24px; min-w
 QScrollBar::handle:hover { background: %7; }
 QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
 QScrollBar::add-page, QScrollBar::sub-page { background: none; }
-QProgressBar { background: %8; border: 1px solid %3; border-radius: 4px; text-align: center; }
+QProgressBar { background: %8; border: 1px solid %3; border-radius: 4px; max-height: 8px; }
 QProgressBar::chunk { background: %5; border-radius: 3px; }
 )")
       .arg(c(window), c(raised), c(line), c(text), c(accent), c(selection), c(faint_text), c(panel))

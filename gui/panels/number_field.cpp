@@ -24,6 +24,8 @@ class CalmSlider : public QSlider {
   void wheelEvent(QWheelEvent* event) override { event->ignore(); }
 };
 
+constexpr int line_width = 76;  // beside a slider
+
 class NumberField : public ParamField {
  public:
   NumberField(const Param& param, QWidget* parent)
@@ -48,7 +50,7 @@ class NumberField : public ParamField {
     line_->setAccessibleName(name);
     line_->setAlignment(Qt::AlignRight);
     line_->installEventFilter(this);
-    if (slider_) line_->setFixedWidth(76);
+    if (slider_) line_->setFixedWidth(line_width);
     row->addWidget(line_, slider_ ? 0 : 1);
     auto* unit = new QLabel(QString::fromStdString(param.unit), this);
     unit->setObjectName("faint");
@@ -75,6 +77,12 @@ class NumberField : public ParamField {
     line_->setText(shown_);
     line_->setCursorPosition(0);
     if (slider_) {
+      // The name of a variable has the slider's room as well.
+      const bool number = value.is_number() || value.is_null();
+      slider_->setVisible(number);
+      line_->setMinimumWidth(line_width);
+      line_->setMaximumWidth(number ? line_width : QWIDGETSIZE_MAX);
+      line_->setAlignment(number ? Qt::AlignRight : Qt::AlignLeft);
       slider_->setEnabled(value.is_number());
       if (value.is_number() && !slider_->isSliderDown())
         slider_->setValue(

@@ -266,7 +266,10 @@ void ParameterPanel::refresh() {
   auto found = session_.document().nodes.find(node_);
   if (found == session_.document().nodes.end()) return;
   const Node& node = found->second;
-  if (!name_->hasFocus()) name_->setText(QString::fromStdString(node_));
+  if (!name_->hasFocus()) {
+    name_->setText(QString::fromStdString(node_));
+    name_->setCursorPosition(0);
+  }
   if (!note_->hasFocus()) {
     note_->setText(QString::fromStdString(node.note));
     note_->setCursorPosition(0);

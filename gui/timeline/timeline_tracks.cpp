@@ -130,6 +130,7 @@ void TimelineTracks::paintEvent(QPaintEvent*) {
     QString words = tr("No motion is shown, so there is nothing to play.");
     if (!rows_.empty() && !rows_.front().why_not.isEmpty())
       words = tr("%1 %2").arg(rows_.front().name, rows_.front().why_not);
+    if (!words.endsWith('.') && !words.endsWith(QStringLiteral("…"))) words += '.';
     painter.setPen(theme_->faint_text);
     painter.drawText(rect().adjusted(0, static_cast<int>(ruler), 0, 0), Qt::AlignCenter, words);
     return paint_focus(painter);

@@ -506,6 +506,9 @@ void Viewer::update_words() {
     } else if (status && status->state == State::blocked) {
       words = tr("%1 waits for something before it that failed or is not linked. Problems tells which.")
                   .arg(name.toHtmlEscaped());
+    } else if (status && status->state == State::cancelled) {
+      words = tr("%1 was cancelled. Choose another node or change something, and work goes on.")
+                  .arg(name.toHtmlEscaped());
     } else {
       words = tr("Evaluating %1…").arg(name.toHtmlEscaped());
     }

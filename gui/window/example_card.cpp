@@ -76,7 +76,7 @@ void ExampleCard::paintEvent(QPaintEvent*) {
   p.drawRoundedRect(QRectF(rect()).adjusted(1, 1, -1, -1), 7, 7);
   paint_graph(p, QRectF(rect()).adjusted(14, 12, -14, -66));
   QFont font;
-  font.setPixelSize(13);
+  font.setPixelSize(12);
   font.setBold(true);
   p.setFont(font);
   p.setPen(theme_->text);

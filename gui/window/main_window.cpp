@@ -235,13 +235,14 @@ void MainWindow::update_progress() {
   progress_->setVisible(busy);
   progress_->setRange(0, reads ? 0 : 1000);
   double sum = 0;
-  int running = 0, failed = 0, blocked = 0, incomplete = 0;
+  int running = 0, failed = 0, blocked = 0, incomplete = 0, cancelled = 0;
   QString name;
   for (const auto& [node, unused] : session_.document().nodes)
     if (const NodeStatus* status = evaluation_.status(node)) {
       failed += status->state == NodeStatus::State::failed;
       blocked += status->state == NodeStatus::State::blocked;
       incomplete += status->state == NodeStatus::State::incomplete;
+      cancelled += status->state == NodeStatus::State::cancelled;
       if (status->state != NodeStatus::State::running) continue;
       ++running;
       sum += status->progress;
@@ -249,11 +250,13 @@ void MainWindow::update_progress() {
     }
   progress_->setValue(running ? int(1000 * sum / running) : 0);
   if (reads)
-    state_text_->setText(tr("reading the graph files inside"));
+    state_text_->setText(tr("Reading the graph files inside"));
   else if (busy)
     state_text_->setText(running == 1 ? tr("%1 is running").arg(name)
                          : running    ? tr("%1 nodes are running").arg(running)
                                       : tr("Evaluating…"));
+  else if (cancelled)
+    state_text_->setText(tr("Cancelled"));
   else if (failed)
     state_text_->setText(failed == 1 ? tr("1 node failed") : tr("%1 nodes failed").arg(failed));
   else if (incomplete)

@@ -204,7 +204,7 @@ void MainWindow::about() {
                   this);
   box.setInformativeText(
       tr("A compositor for character motion: graphs of nodes over captured and made clips. The same graphs "
-         "run here and with \"kinegraph run\"."));
+         "run here and with “kinegraph run”."));
   box.exec();
 }
 

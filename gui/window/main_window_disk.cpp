@@ -7,6 +7,7 @@
 #include "graph/file/merge.h"
 #include "graph/file/read.h"
 #include "graph/nested.h"
+#include "gui/document/problem_text.h"
 #include "gui/window/changes_dialog.h"
 #include "gui/window/main_window.h"
 #include "gui/window/relink_dialog.h"
@@ -108,10 +109,11 @@ void MainWindow::offer_merge(const std::string& now) {
     watch_files();
     if (merged.conflicts.empty()) return;
     QStringList conflicts;
-    for (const MergeConflict& one : merged.conflicts) conflicts << QString::fromStdString(one.what);
+    for (const MergeConflict& one : merged.conflicts)
+      conflicts << with_quotes(QString::fromStdString(one.what));
     notice_->say(
         NoticeBar::Kind::warning,
-        tr("Both sides changed the same; what is open here was kept for: %1").arg(conflicts.join("; ")));
+        tr("Both sides changed the same; what is open here was kept: %1.").arg(conflicts.join("; ")));
   };
   notice_->say(NoticeBar::Kind::info,
                tr("%1 changed on disk: %2. Merge it in, or keep what is open, before it is saved.")

@@ -101,7 +101,7 @@ bool MainWindow::save_what_is_inside() {
   box.button(QMessageBox::Ignore)->setText(tr("Run unsaved"));
   box.setInformativeText(
       tr("It lies inside this graph and has changes that are not saved: what runs here "
-         "would differ from what kinegraph run gives."));
+         "would differ from what “kinegraph run” gives."));
   box.setDefaultButton(QMessageBox::Save);
   const int answer = box.exec();
   if (answer == QMessageBox::Cancel) return false;

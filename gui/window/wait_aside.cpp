@@ -27,6 +27,7 @@ bool wait_aside(QWidget* over, const QString& what, const std::function<void(con
   QProgressDialog dialog(what, QObject::tr("Cancel"), 0, 0, over);
   dialog.setWindowTitle(QObject::tr("Kinegraph"));
   dialog.setWindowModality(Qt::ApplicationModal);
+  dialog.setMinimumSize(340, 104);
   dialog.setMinimumDuration(0);
   dialog.setAutoReset(false);
   QObject::connect(&dialog, &QProgressDialog::canceled, &turns, [&] {

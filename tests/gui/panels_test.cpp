@@ -89,6 +89,13 @@ TEST(EditorProblems, ADamagedClipIsToldWithItsLineAndWhatToDo) {
   EXPECT_EQ(advice_on(error("x", "y")), "");
 }
 
+TEST(EditorProblems, QuotesAreTheSameInAllWords) {
+  EXPECT_EQ(with_quotes("There is no file \"a b.bvh\"."), "There is no file “a b.bvh”.");
+  EXPECT_EQ(with_quotes("Link the output `points`."), "Link the output “points”.");
+  EXPECT_EQ(with_quotes("no file 'walk.bvh'"), "no file “walk.bvh”");
+  EXPECT_EQ(with_quotes("the actor's and the dog's"), "the actor's and the dog's");
+}
+
 TEST(EditorProblems, LongAdviceIsWrappedAndNotCut) {
   Editor editor;
   editor.window.resize(1280, 800);

@@ -5,6 +5,8 @@
 #include <QColor>
 #include <cmath>
 
+#include "graph/file/read.h"
+#include "gui/viewing/looked_at.h"
 #include "tests/gui/mouse.h"
 #include "tests/gui/viewing_window.h"
 #include "tests/mocap.h"
@@ -187,6 +189,25 @@ TEST(Viewer, ShowsASkinnedCharacter) {
   window.keep_picture("viewer_character");
   // A skin is one surface without sides.
   EXPECT_LT(pixels_like(window.viewer->picture(), dark_theme().right, 10), 300);
+}
+
+TEST(Viewer, ShowsPointsOfANodeThatIsFedWithPointsThoughItCanMakeMotions) {
+  const Registry registry = all_nodes();
+  const Document document = read_document(R"({"format": "kinegraph", "schema": 1, "nodes": {
+        "sparks": {"type": "Burst"},
+        "parts": {"type": "ICA", "inputs": {"motions": ["sparks.points"]}},
+        "edit": {"type": "ComponentEdit", "inputs": {"components": "parts.components"}},
+        "walk": {"type": "Gait"},
+        "steps": {"type": "ICA", "inputs": {"motions": ["walk.motion"]}},
+        "calmer": {"type": "ComponentEdit", "inputs": {"components": "steps.components"}}}})",
+                                          "a", registry)
+                                .document;
+  const auto points = nearest_output(document, registry, "edit", {"Motion", "Points"});
+  ASSERT_TRUE(points);
+  EXPECT_EQ(points->node + "." + points->port, "edit.points");
+  const auto motion = nearest_output(document, registry, "calmer", {"Motion", "Points"});
+  ASSERT_TRUE(motion);
+  EXPECT_EQ(motion->node + "." + motion->port, "calmer.motion");
 }
 
 TEST(Viewer, ShowsARealClip) {

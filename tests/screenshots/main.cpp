@@ -71,7 +71,7 @@ void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
     shot.take_canvas("port_types" + end);
   }
   {
-    Shot shot(theme, into, {1500, 1400});
+    Shot shot(theme, into, {1680, 1400});
     shot.text(states);
     shot.select("done");
     shot.wait(800);
@@ -82,12 +82,16 @@ void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
       QApplication::processEvents(QEventLoop::AllEvents, 20);
       const NodeStatus* running = shot.window.evaluation().status("running");
       const NodeStatus* waiting = shot.window.evaluation().status("waiting");
-      if (running && running->state == NodeStatus::State::running && waiting &&
+      const bool well_under_way = running && running->progress > 0.2;
+      if ((well_under_way || clock.elapsed() > 20000) && running &&
+          running->state == NodeStatus::State::running && waiting &&
           waiting->state == NodeStatus::State::waiting)
         break;
     }
     shot.take_widget("node_states" + end, &shot.canvas());
     shot.window.resize(1280, 800);
+    shot.window.action("reset_layout")->trigger();
+    shot.canvas().frame_all();
     shot.wait(0);
     shot.take("running" + end);
     shot.window.evaluation().cancel();
