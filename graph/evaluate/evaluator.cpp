@@ -53,18 +53,51 @@ RunLog Evaluator::run(const Plan& plan, const std::vector<Target>& targets, cons
 }
 
 ValuePtr Evaluator::value(const Plan& plan, const std::string& node, const std::string& port) const {
-  const auto source = plan.find_output(node, port);
-  if (!source) return nullptr;
-  if (source->node < 0) return source->constant;
-  const auto key = state_->keys_to(plan, source->node).of(*source);
-  if (!key) return nullptr;
-  {
-    std::lock_guard lock(state_->mutex);
-    if (const auto found = state_->kept.find(*key); found != state_->kept.end()) return found->second;
+  return Known(*this, plan, {node}).value(node, port);
+}
+
+Evaluator::Known::Known(const Evaluator& evaluator, const Plan& plan, const std::vector<std::string>& nodes,
+                        std::function<void()> check)
+    : evaluator_(evaluator),
+      plan_(plan),
+      keys_(plan, evaluator.state_->world.registry, evaluator.state_->world.files,
+            evaluator.state_->world.cpu_path, std::move(check)) {
+  std::vector<int> wanted;
+  for (const std::string& node : nodes) {
+    if (const auto index = plan.by_name.find(node); index != plan.by_name.end())
+      wanted.push_back(index->second);
+    if (const auto instead = plan.passed.find(node); instead != plan.passed.end())
+      for (const auto& [port, source] : instead->second)
+        if (source.node >= 0) wanted.push_back(source.node);
   }
-  if (!state_->world.memory) return nullptr;
-  auto cached = state_->world.memory->find(*key);
+  for (const int node : in_order(plan, wanted)) keys_.make(node);
+}
+
+std::optional<Key> Evaluator::Known::key_of(const std::string& node, const std::string& port) const {
+  const auto source = plan_.find_output(node, port);
+  return source ? keys_.of(*source) : std::nullopt;
+}
+
+ValuePtr Evaluator::Known::value(const std::string& node, const std::string& port) const {
+  if (const auto source = plan_.find_output(node, port); source && source->node < 0) return source->constant;
+  const auto key = key_of(node, port);
+  if (!key) return nullptr;
+  State& state = *evaluator_.state_;
+  {
+    std::lock_guard lock(state.mutex);
+    if (const auto found = state.kept.find(*key); found != state.kept.end()) return found->second;
+  }
+  if (!state.world.memory) return nullptr;
+  auto cached = state.world.memory->find(*key);
   return cached ? cached->value : nullptr;
+}
+
+std::string Evaluator::Known::cached(const std::string& node, const std::string& port) const {
+  const auto key = key_of(node, port);
+  const RunWorld& world = evaluator_.state_->world;
+  if (key && world.memory && world.memory->contains(*key)) return "memory";
+  if (key && world.disk && world.disk->contains(*key)) return "disk";
+  return "no";
 }
 
 std::map<std::string, Key> Evaluator::wanted_under_way(const Plan& plan, const std::vector<Target>& targets,

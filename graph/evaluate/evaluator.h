@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +44,24 @@ class Evaluator {
   // A value that the run begun last made and that a target asked for ("node.port"), or that the memory cache
   // still has; null where there is none.
   ValuePtr value(const Plan& plan, const std::string& node, const std::string& port) const;
+
+  // The same for who asks about many nodes of a plan, of which the keys are made once, when it is made; and
+  // whether the caches know a value at all. `check` is called now and then while files are hashed, and throws
+  // to stop. The plan and the evaluator outlive it.
+  class Known {
+   public:
+    Known(const Evaluator& evaluator, const Plan& plan, const std::vector<std::string>& nodes,
+          std::function<void()> check = {});
+    ValuePtr value(const std::string& node, const std::string& port) const;
+    std::string cached(const std::string& node, const std::string& port) const;  // "memory", "disk", "no"
+
+   private:
+    std::optional<Key> key_of(const std::string& node, const std::string& port) const;
+
+    const Evaluator& evaluator_;
+    const Plan& plan_;
+    NodeKeys keys_;
+  };
 
   // What these targets will ask for that a run is computing just now, by the node's name in this plan: what
   // StopToken::stop_all_but() is to keep for them. `check` is called now and then, and throws to stop.

@@ -20,6 +20,7 @@ constexpr int figures_of_still = 5;
 // At what of older work is still wanted: of this thread's own time, and by the clock.
 constexpr double longest_look = 0.02, latest_look = 0.2;  // seconds
 constexpr std::size_t most_nodes_looked_at = 200;
+constexpr int sum_up_after_ms = 30;
 constexpr std::size_t memory_for_values = std::size_t(1) << 30;
 
 NodeStatus::State state_named(std::string_view name) {
@@ -102,7 +103,16 @@ Evaluation::Evaluation(const Registry& registry, std::string cache_folder, QObje
                 ? nullptr
                 : std::make_unique<DiskCache>(std::move(cache_folder), std::uint64_t(4) << 30, registry)),
       evaluator_(registry, files_, &memory_, disk_.get()),
-      thread_([this] { work(); }) {}
+      thread_([this] { work(); }) {
+  summing_.setSingleShot(true);
+  summing_.setInterval(sum_up_after_ms);
+  connect(&summing_, &QTimer::timeout, this, [this] {
+    for (const std::string& graph : std::exchange(unsummed_, {})) {
+      sum_up(statuses_, graph);
+      emit status_changed(QString::fromStdString(graph));
+    }
+  });
+}
 
 Evaluation::~Evaluation() {
   {
@@ -139,6 +149,7 @@ void Evaluation::forget() {
     for (const auto& run : aside_) run->stop.stop();
   }
   evaluator_.wake();
+  unsummed_.clear();
   statuses_.clear();
   values_.clear();
   log_ = {};
@@ -310,6 +321,9 @@ void Evaluation::run(Run& run) {
 void Evaluation::finish(Run& run) {
   std::lock_guard one(finishing_);
   Result& result = *run.result;
+  std::vector<std::string> asked;
+  for (const Target& target : run.targets) asked.push_back(target.node);
+  const Evaluator::Known known(evaluator_, run.plan, asked);
   for (const Target& target : run.targets) {
     const NodeType* type = nullptr;
     auto node = run.request.document.nodes.find(target.node);
@@ -317,7 +331,7 @@ void Evaluation::finish(Run& run) {
     if (!type) continue;
     for (const OutputPort& port : type->outputs)
       if (target.port.empty() || target.port == port.name)
-        if (ValuePtr value = evaluator_.value(run.plan, target.node, port.name))
+        if (ValuePtr value = known.value(target.node, port.name))
           result.values[target.node + "." + port.name] = std::move(value);
   }
   std::vector<std::string> done;
@@ -341,9 +355,12 @@ bool Evaluation::gives_way(const Run& run) const {
 // After the values, which somebody waits for.
 void Evaluation::deliver_stills(const Run& run, const std::vector<std::string>& nodes) {
   std::map<std::string, std::shared_ptr<const Still>> stills;
+  if (nodes.empty() || gives_way(run)) return;
+  std::erase_if(stills_, [](const auto& made) { return made.second.first.expired(); });
+  const Evaluator::Known known(evaluator_, run.plan, nodes);
   for (const std::string& node : nodes) {
     if (gives_way(run)) break;  // what comes next makes those that are still missing
-    if (auto still = still_of(run.request, run.plan, node)) stills[node] = std::move(still);
+    if (auto still = still_of(run.request, known, node)) stills[node] = std::move(still);
   }
   if (stills.empty()) return;
   QMetaObject::invokeMethod(
@@ -372,53 +389,53 @@ void Evaluation::find_outdated(const Document& document, Result& result) {
   for (const auto& [name, diagnostics] : result.left_out) failed_as_[name] = described(document, name);
 }
 
-std::shared_ptr<const Still> Evaluation::still_of(const EvaluationRequest& request, const Plan& plan,
-                                                  const std::string& node) {
+std::shared_ptr<const Still> Evaluation::still_of(const EvaluationRequest& request,
+                                                  const Evaluator::Known& known, const std::string& node) {
   const auto found = request.document.nodes.find(node);
   const NodeType* type =
       found == request.document.nodes.end() ? nullptr : known_type(registry_, found->second);
   if (!type || type->role == Role::pass) return nullptr;
   for (const OutputPort& port : type->outputs) {
     if (!port.type.empty() && port.type != "Motion") continue;
-    const auto motion = std::dynamic_pointer_cast<const Motion>(evaluator_.value(plan, node, port.name));
+    const auto motion = std::dynamic_pointer_cast<const Motion>(known.value(node, port.name));
     if (!motion) continue;
-    std::erase_if(stills_, [](const auto& known) { return known.second.first.expired(); });
-    auto& known = stills_[motion.get()];
-    if (!known.second) known = {motion, std::make_shared<Still>(make_still(*motion, figures_of_still))};
-    return known.second;
+    auto& made = stills_[motion.get()];
+    if (made.first.expired()) made = {motion, std::make_shared<Still>(make_still(*motion, figures_of_still))};
+    return made.second;
   }
   return nullptr;
 }
 
-void Evaluation::look_around(Run& run) {
+void Evaluation::look_around(Run& run) try {
   const EvaluationRequest& request = run.request;
   const Plan& plan = run.plan;
   if (request.document.nodes.size() > most_nodes_looked_at) return;
   auto seen = std::make_shared<Result>();
   seen->generation = run.result->generation;
   seen->graph = request.graph;
+  const auto check = [&] {
+    if (gives_way(run)) throw Cancelled();
+  };
+  std::vector<std::string> names;
+  for (const PlannedNode& node : plan.nodes)
+    if (node.type && node.enabled && !node.type->outputs.empty() && node.blocked.empty())
+      names.push_back(node.name);
+  Evaluator::Known known(evaluator_, plan, names, check);
   std::vector<Target> cached;
-  for (const PlannedNode& node : plan.nodes) {
-    if (gives_way(run)) return;
-    if (!node.type || !node.enabled || node.type->outputs.empty() || !node.blocked.empty()) continue;
-    NodeRun known;
-    known.state = NodeState::done;
-    const std::string first = node.type->outputs.front().name;
-    try {
-      const Evaluator::Explained explained = evaluator_.explain(plan, node.name, first);
-      if (explained.cached != "memory" && explained.cached != "disk") continue;
-      known.outputs[first] = {.cached = explained.cached, .computed = true};
-    } catch (const Failure&) {
-      continue;  // it can't have a key yet: its file is missing
-    }
-    seen->log.nodes[node.name] = std::move(known);
-    if (node.type->outputs.front().type == "Motion" && request.document.nodes.count(node.name))
-      cached.push_back({node.name, first});
+  for (const std::string& name : names) {
+    check();
+    const OutputPort& first = plan.nodes[std::size_t(plan.by_name.at(name))].type->outputs.front();
+    const std::string where = known.cached(name, first.name);
+    if (where == "no") continue;
+    NodeRun& found = seen->log.nodes[name];
+    found.state = NodeState::done;
+    found.outputs[first.name] = {.cached = where, .computed = true};
+    if (first.type == "Motion" && request.document.nodes.count(name)) cached.push_back({name, first.name});
   }
   // What is on disk alone is read for its still.
   evaluator_.run(plan, cached, {.keep_going = true}, {}, &run.stop);
   for (const Target& target : cached)
-    if (auto still = still_of(request, plan, target.node)) seen->stills[target.node] = std::move(still);
+    if (auto still = still_of(request, known, target.node)) seen->stills[target.node] = std::move(still);
   QMetaObject::invokeMethod(
       this,
       [this, seen] {
@@ -440,6 +457,8 @@ void Evaluation::look_around(Run& run) {
         sum_up_graph_nodes();
       },
       Qt::QueuedConnection);
+} catch (const Cancelled&) {
+  // What comes next looks around itself.
 }
 
 void Evaluation::take_stills(const std::map<std::string, std::shared_ptr<const Still>>& stills) {
@@ -462,6 +481,14 @@ void Evaluation::sum_up_graph_nodes() {
     sum_up(statuses_, graph);
     emit status_changed(QString::fromStdString(graph));
   }
+}
+
+// Each of thousands of inner nodes tells of itself, and a sum goes through all of them.
+void Evaluation::sum_up_soon(const std::string& inner) {
+  const std::size_t slash = inner.find('/');
+  if (slash == std::string::npos) return;
+  unsummed_.insert(inner.substr(0, slash));
+  if (!summing_.isActive()) summing_.start();
 }
 
 void Evaluation::deliver_status(const Run& run, const std::string& node, NodeStatus status) {
@@ -488,10 +515,7 @@ void Evaluation::deliver_status(const Run& run, const std::string& node, NodeSta
         status.still = known.still;
         known = std::move(status);
         emit status_changed(QString::fromStdString(node));
-        const std::size_t slash = node.find('/');
-        if (slash == std::string::npos) return;
-        sum_up(statuses_, node.substr(0, slash));
-        emit status_changed(QString::fromStdString(node.substr(0, slash)));
+        sum_up_soon(node);
       },
       Qt::QueuedConnection);
 }

@@ -1,6 +1,7 @@
 // Evaluates what the editor shows, on other threads at lower priority. The GUI thread only asks and is told.
 #pragma once
 #include <QObject>
+#include <QTimer>
 #include <condition_variable>
 #include <map>
 #include <memory>
@@ -96,12 +97,13 @@ class Evaluation : public QObject {
   void look_around(Run& run);
   void deliver_stills(const Run& run, const std::vector<std::string>& nodes);
   bool gives_way(const Run& run) const;  // something newer waits
-  std::shared_ptr<const Still> still_of(const EvaluationRequest& request, const Plan& plan,
+  std::shared_ptr<const Still> still_of(const EvaluationRequest& request, const Evaluator::Known& known,
                                         const std::string& node);
   void deliver(std::shared_ptr<Result> result);
   void find_outdated(const Document& document, Result& result);
   void take_stills(const std::map<std::string, std::shared_ptr<const Still>>& stills);
   void sum_up_graph_nodes();
+  void sum_up_soon(const std::string& inner);  // the Graph node that this one lies in
   void deliver_waiting(const Run& run, std::vector<std::string> nodes);
   void deliver_status(const Run& run, const std::string& node, NodeStatus status);
 
@@ -130,6 +132,8 @@ class Evaluation : public QObject {
   // GUI thread only.
   std::uint64_t delivered_ = 0;  // generation of the newest result
   std::map<std::string, NodeStatus> statuses_;
+  std::set<std::string> unsummed_;  // Graph nodes, of which inner ones told of themselves since
+  QTimer summing_;
   std::map<std::string, ValuePtr> values_;
   RunLog log_;
   Diagnostics problems_;

@@ -155,6 +155,23 @@ TEST_F(EvaluateKeys, SwitchDotAndDisabledNodesHaveNone) {
             direct);
 }
 
+TEST_F(EvaluateKeys, WhatIsKnownOfManyNodesIsWhatExplainAndValueTellOfEach) {
+  toys::write(folder / "clip.txt", "walk");
+  disk.emplace(folder / "cache", 0, registry);
+  memory.emplace(1 << 24);
+  const auto plan = plan_of(sum_of_file);
+  EXPECT_EQ(Evaluator::Known(evaluator(), plan, {"sum"}).cached("sum", "sum"), "no");
+  run(plan, {{"sum", "sum"}});
+  const Evaluator::Known known(evaluator(), plan, {"sum"});
+  EXPECT_EQ(known.cached("sum", "sum"), "memory");
+  EXPECT_TRUE(known.value("sum", "sum"));
+  EXPECT_EQ(known.value("sum", "sum"), evaluator().value(plan, "sum", "sum"));
+  EXPECT_EQ(known.cached("smu", "sum"), "no");
+  EXPECT_FALSE(known.value("smu", "sum"));
+  forget();
+  EXPECT_EQ(Evaluator::Known(evaluator(), plan, {"sum"}).cached("sum", "sum"), "disk");
+}
+
 TEST_F(EvaluateKeys, ExplainNamesThePartsAndWhetherItIsCached) {
   toys::write(folder / "clip.txt", "walk");
   disk.emplace(folder / "cache", 0, registry);
