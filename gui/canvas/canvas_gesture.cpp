@@ -2,7 +2,9 @@
 #include "gui/canvas/canvas_gesture.h"
 
 #include <QLineF>
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "gui/canvas/canvas_edits.h"
 #include "gui/canvas/graph_canvas.h"
@@ -54,6 +56,7 @@ class BoxSelect : public CanvasGesture {
  private:
   void select() {
     const QRectF box = QRectF(start_, end_).normalized();
+    std::erase_if(before_, [&](const auto& name) { return !canvas_.scene().node(name); });
     std::set<std::string> inside = before_, notes;
     for (const SceneNode& node : canvas_.scene().nodes())
       if (box.intersects(node.rect)) inside.insert(node.name);
@@ -120,6 +123,13 @@ class Move : public CanvasGesture {
   }
 
   void cancel() override { canvas_.rebuild(); }
+
+  bool follow() override {
+    std::erase_if(nodes_, [&](const auto& name) { return !canvas_.scene().node(name); });
+    wire_.reset();
+    if (moved_) canvas_.scene().shift(nodes_, shifted_);
+    return !nodes_.empty() || !notes_.empty();
+  }
 
   void paint(QPainter& p) override {
     if (!wire_) return;
@@ -194,6 +204,10 @@ class ResizeNote : public CanvasGesture {
     p.setBrush(Qt::NoBrush);
     p.drawRect(QRectF(canvas_.to_view(now().topLeft()), canvas_.to_view(now().bottomRight())));
   }
+  bool follow() override {
+    const auto& notes = canvas_.scene().notes();
+    return std::any_of(notes.begin(), notes.end(), [&](const auto& one) { return one.name == note_; });
+  }
   Qt::CursorShape cursor() const override { return Qt::SizeFDiagCursor; }
 
  private:
@@ -240,6 +254,15 @@ class Cut : public CanvasGesture {
       }
     p.setPen(QPen(canvas_.theme().error, 1.5, Qt::DashLine));
     draw(p, line_);
+  }
+  bool follow() override {
+    const auto& wires = canvas_.scene().wires();
+    std::erase_if(cut_, [&](const auto& link) {
+      return std::none_of(wires.begin(), wires.end(), [&](const SceneWire& wire) {
+        return link == std::tie(wire.to, wire.to_port, wire.index);
+      });
+    });
+    return true;
   }
   Qt::CursorShape cursor() const override { return Qt::CrossCursor; }
 

@@ -21,6 +21,9 @@ class CanvasGesture {
   virtual void move(QPointF view) = 0;
   virtual void release(QPointF view) = 0;
   virtual void cancel() {}
+  // The graph became another meanwhile, and the scene was made anew. False: there is nothing left to do it
+  // to.
+  virtual bool follow() { return true; }
   virtual void paint(QPainter&) {}
   virtual Qt::CursorShape cursor() const { return Qt::ArrowCursor; }
 

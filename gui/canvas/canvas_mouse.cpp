@@ -5,6 +5,7 @@
 #include <QMenu>
 #include <QMimeData>
 #include <QMouseEvent>
+#include <QTimer>
 #include <QToolTip>
 #include <QUrl>
 #include <cmath>
@@ -18,6 +19,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double port_reach = 12;  // pixels
+constexpr int hint_ms = 4000;
 
 }  // namespace
 
@@ -87,6 +89,7 @@ void GraphCanvas::mousePressEvent(QMouseEvent* event) {
   search_->cancel();
   if (gesture_) return;
   hover_.reset();
+  held_ = event->button();
   if (event->button() == Qt::MiddleButton)
     begin(pan_gesture(*this, event->position()));
   else if (event->button() == Qt::LeftButton)
@@ -109,7 +112,7 @@ void GraphCanvas::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void GraphCanvas::mouseReleaseEvent(QMouseEvent* event) {
-  if (!gesture_) return;
+  if (!gesture_ || event->button() != held_) return;
   const auto gesture = std::move(gesture_);
   gesture->release(event->position());
   unsetCursor();
@@ -301,6 +304,12 @@ void GraphCanvas::dropEvent(QDropEvent* event) {
       emit file_dropped(path);
       return;
     }
+    if (QFileInfo(path).isDir()) {
+      set_hint(tr("A folder is no clip: drop files, or add the folder in the Files dock."), event->position(),
+               true);
+      QTimer::singleShot(hint_ms, this, [this] { set_hint({}, {}, false); });
+      continue;
+    }
     add("Load", at, {}, {{"file", Json(session_.written_path(path).toStdString())}});
     at += QPointF(0, 140);
   }
@@ -359,12 +368,7 @@ void GraphCanvas::keyPressEvent(QKeyEvent* event) {
   const bool control = event->modifiers() & Qt::ControlModifier;
   switch (event->key()) {
     case Qt::Key_Escape:
-      if (gesture_) {
-        gesture_->cancel();
-        gesture_.reset();
-        unsetCursor();
-        rebuild();
-      } else {
+      if (!give_up_gesture()) {
         session_.select({});
         select_decor({}, {});
       }

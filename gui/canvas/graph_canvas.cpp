@@ -1,8 +1,11 @@
 #include "gui/canvas/graph_canvas.h"
 
+#include <QAccessible>
 #include <QPlainTextEdit>
 #include <algorithm>
 #include <cmath>
+
+#include "gui/canvas/canvas_accessible.h"
 
 namespace kinegraph {
 namespace {
@@ -21,6 +24,7 @@ GraphCanvas::GraphCanvas(Session& session, Evaluation& evaluation, QWidget* pare
       theme_(&dark_theme()),
       search_(new SearchBox(this)) {
   setObjectName("canvas");
+  QAccessible::installFactory(canvas_accessible);
   setAccessibleName(tr("Graph"));
   setAccessibleDescription(
       tr("Nodes and the links between them. Tab adds a node, arrow keys walk along links."));
@@ -35,7 +39,11 @@ GraphCanvas::GraphCanvas(Session& session, Evaluation& evaluation, QWidget* pare
     resting_ = true;
     update();
   });
-  connect(&session_, &Session::changed, this, &GraphCanvas::rebuild);
+  connect(&session_, &Session::changed, this, [this] {
+    rebuild();
+    if (gesture_ && !gesture_->follow()) give_up_gesture();
+  });
+  connect(&session_, &Session::page_changed, this, &GraphCanvas::give_up_gesture);
   connect(&session_, &Session::problems_changed, this, [this] {
     const auto before = problems_;
     find_problems();
@@ -49,6 +57,7 @@ GraphCanvas::GraphCanvas(Session& session, Evaluation& evaluation, QWidget* pare
   connect(&session_, &Session::selection_changed, this, [this] {
     scene_.raise(session_.selected());
     update();
+    tell_of_current_node(*this);
   });
   connect(&evaluation_, &Evaluation::status_changed, this, [this](const QString& node) {
     pixmaps_.forget(node.toStdString());
@@ -158,6 +167,15 @@ void GraphCanvas::begin(std::unique_ptr<CanvasGesture> gesture) {
   update();
 }
 
+bool GraphCanvas::give_up_gesture() {
+  const auto gesture = std::move(gesture_);
+  if (!gesture) return false;
+  gesture->cancel();
+  unsetCursor();
+  rebuild();
+  return true;
+}
+
 QPointF GraphCanvas::pointer() const {
   const QPoint at = mapFromGlobal(QCursor::pos());
   return to_graph(rect().contains(at) && underMouse() ? QPointF(at) : QRectF(rect()).center());
@@ -176,11 +194,12 @@ void GraphCanvas::resizeEvent(QResizeEvent* event) {
                     event->size().height() - event->oldSize().height()) /
             2;
   framed_once_ = isVisible();
-  search_->cancel();
+  search_->stay_inside();  // a notice that comes up must not end what is being typed
 }
 
 void GraphCanvas::focusInEvent(QFocusEvent*) {
   update();
+  tell_of_current_node(*this);
 }
 void GraphCanvas::focusOutEvent(QFocusEvent*) {
   space_ = false;

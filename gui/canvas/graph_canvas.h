@@ -28,6 +28,7 @@ class GraphCanvas : public QWidget {
   void set_theme(const Theme& theme);
   const Theme& theme() const { return *theme_; }
   Session& session() { return session_; }
+  const Evaluation& evaluation() const { return evaluation_; }
   const GraphScene& scene() const { return scene_; }
   GraphScene& scene() { return scene_; }
 
@@ -49,6 +50,7 @@ class GraphCanvas : public QWidget {
   std::optional<PortAt> hovered_port() const { return hover_; }
   void set_hint(const QString& text, QPointF view, bool refused);  // "" = none
   void begin(std::unique_ptr<CanvasGesture> gesture);
+  bool give_up_gesture();  // false: none was under way
   void rebuild();
 
   // Search-to-add at a place; with a port only what fits it, and it is linked.
@@ -142,6 +144,7 @@ class GraphCanvas : public QWidget {
   bool resting_ = true, space_ = false, framed_once_ = false;
   QTimer rest_, states_due_;
   std::unique_ptr<CanvasGesture> gesture_;
+  Qt::MouseButton held_ = Qt::NoButton;  // by the gesture
   std::optional<PortAt> hover_;
   std::string hover_node_;
   std::optional<PortAt> hover_wire_;  // by the input that it ends at

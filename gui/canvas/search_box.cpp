@@ -85,13 +85,17 @@ void SearchBox::open(QPoint at, const QString& prompt, std::vector<Entry> entrie
   line_->setAccessibleName(prompt);
   line_->clear();
   filter();
-  const QRect room = parentWidget()->rect().adjusted(8, 8, -8, -8);
-  at.setX(std::max(room.left(), std::min(at.x(), room.right() - width())));
-  at.setY(std::max(room.top(), std::min(at.y(), room.bottom() - height())));
   move(at);
+  stay_inside();
   show();
   raise();
   line_->setFocus(Qt::PopupFocusReason);
+}
+
+void SearchBox::stay_inside() {
+  const QRect room = parentWidget()->rect().adjusted(8, 8, -8, -8);
+  move(std::max(room.left(), std::min(x(), room.right() - width())),
+       std::max(room.top(), std::min(y(), room.bottom() - height())));
 }
 
 void SearchBox::cancel() {

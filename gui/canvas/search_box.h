@@ -22,6 +22,7 @@ class SearchBox : public QFrame {
   // Shows it at a place of the parent; `chosen` gets the entry's index once.
   void open(QPoint at, const QString& prompt, std::vector<Entry> entries, std::function<void(int)> chosen);
   void cancel();
+  void stay_inside();  // of the parent, which has another size
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

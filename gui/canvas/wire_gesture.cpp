@@ -22,12 +22,7 @@ class DragWire : public CanvasGesture {
         from_ = PortAt{link.node, link.port, false};
       }
     }
-    for (const SceneNode& node : canvas.scene().nodes())
-      for (const ScenePort& one : from_.input ? node.outputs : node.inputs) {
-        const PortAt other{node.name, one.name, !from_.input};
-        if (objection(document, canvas.session().registry(), from_, other).isEmpty())
-          fitting_.push_back(other);
-      }
+    find_fitting();
     end_ = canvas.to_view(canvas.scene().port_position(port));
   }
 
@@ -91,6 +86,17 @@ class DragWire : public CanvasGesture {
 
   void cancel() override { canvas_.set_hint({}, {}, false); }
 
+  bool follow() override {
+    const auto is_there = [&](const PortAt& port) {
+      const SceneNode* node = canvas_.scene().node(port.node);
+      return node && node->port(port.input, port.port);
+    };
+    target_.reset();
+    if (!is_there(from_) || (picked_up_ && !is_there(*picked_up_))) return false;
+    find_fitting();
+    return true;
+  }
+
   void paint(QPainter& p) override {
     p.setRenderHint(QPainter::Antialiasing);
     const Theme& theme = canvas_.theme();
@@ -127,6 +133,17 @@ class DragWire : public CanvasGesture {
   }
 
  private:
+  void find_fitting() {
+    const Document& document = canvas_.session().document();
+    fitting_.clear();
+    for (const SceneNode& node : canvas_.scene().nodes())
+      for (const ScenePort& one : from_.input ? node.outputs : node.inputs) {
+        const PortAt other{node.name, one.name, !from_.input};
+        if (objection(document, canvas_.session().registry(), from_, other).isEmpty())
+          fitting_.push_back(other);
+      }
+  }
+
   PortAt from_;
   std::optional<PortAt> picked_up_, target_;
   std::vector<PortAt> fitting_;

@@ -21,7 +21,7 @@ constexpr ActionRow rows[] = {
     {"quit", "File", "&Quit", "Ctrl+Q", "Closes the editor"},
 
     {"undo", "Edit", "&Undo", "Ctrl+Z", "Takes back the last step"},
-    {"redo", "Edit", "&Redo", "Ctrl+Shift+Z", "Does again what was taken back"},
+    {"redo", "Edit", "&Redo", "Ctrl+Shift+Z", "Does again what was taken back; so does Ctrl+Y"},
     {"cut", "Edit", "Cu&t", "Ctrl+X", "Moves the chosen nodes to the clipboard, as graph JSON", Where::graph,
      true},
     {"copy", "Edit", "&Copy", "Ctrl+C", "Copies the chosen nodes, as graph JSON", Where::graph},

@@ -9,6 +9,7 @@ class Reader {
  public:
   explicit Reader(const QString& text) : text_(text) {}
   std::optional<double> whole() {
+    take('=');  // as in a spreadsheet
     const auto value = sum();
     skip();
     if (!value || at_ != text_.size() || !std::isfinite(*value)) return {};

@@ -11,6 +11,7 @@
 #include <QToolButton>
 #include <QWheelEvent>
 
+#include "gui/document/problem_text.h"
 #include "gui/look/ask_file.h"
 #include "gui/panels/arithmetic.h"
 #include "gui/panels/text_field.h"
@@ -213,7 +214,8 @@ std::optional<Json> typed_value(const ParamType& type, const QString& text, QStr
   }
   const Diagnostics problems = check(type, value, type.name);
   if (has_error(problems)) {
-    *why = QString::fromStdString(problems.front().message);
+    const QString advice = advice_on(problems.front());
+    *why = problem_text(problems.front()) + (advice.isEmpty() ? "" : " " + advice);
     return {};
   }
   return value;

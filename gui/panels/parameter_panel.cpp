@@ -12,6 +12,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <set>
+#include <utility>
 
 #include "graph/nested.h"
 #include "gui/canvas/node_painter.h"
@@ -108,6 +109,7 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
     session_.perform(
         [&](const Document& d, const Registry&) { return set_note(d, node_, note_->text().toStdString()); });
   });
+  connect(&session_, &Session::page_changed, this, [this] { of_other_page_ = true; });
   connect(&session_, &Session::selection_changed, this, &ParameterPanel::show_node);
   connect(&session_, &Session::changed, this, &ParameterPanel::show_node);
   connect(&session_, &Session::problems_changed, this, &ParameterPanel::refresh_state);
@@ -141,6 +143,8 @@ const NodeType* ParameterPanel::type() const {
 }
 
 void ParameterPanel::show_node() {
+  // Whatever is still being typed was meant for the node before.
+  const bool another = std::exchange(of_other_page_, false) || node_ != session_.current();
   node_ = session_.current();
   const auto found = session_.document().nodes.find(node_);
   const bool some = found != session_.document().nodes.end();
@@ -159,8 +163,9 @@ void ParameterPanel::show_node() {
   const std::string rows = names.join('\n').toStdString();
   if (rows != node_type_ || found->second.missing) {
     node_type_ = rows;
+    // One of the old fields may be what is telling of the change; what is left in them is of no use any more.
+    for (const auto& [name, row] : rows_) row.field->disconnect(this);
     rows_.clear();
-    // One of the old fields may be what is telling of the change.
     if (QWidget* old = scroll_->takeWidget()) {
       old->hide();
       old->deleteLater();
@@ -177,7 +182,7 @@ void ParameterPanel::show_node() {
     }
   }
   help_->setVisible(described && !described->params.empty());
-  refresh();
+  refresh(another);
 }
 
 void ParameterPanel::build(const NodeType& known) {
@@ -262,15 +267,15 @@ void ParameterPanel::build(const NodeType& known) {
   tell_help(tr("Point at a parameter to read what it does."));
 }
 
-void ParameterPanel::refresh() {
+void ParameterPanel::refresh(bool another) {
   auto found = session_.document().nodes.find(node_);
   if (found == session_.document().nodes.end()) return;
   const Node& node = found->second;
-  if (!name_->hasFocus()) {
+  if (another || !name_->hasFocus()) {
     name_->setText(QString::fromStdString(node_));
     name_->setCursorPosition(0);
   }
-  if (!note_->hasFocus()) {
+  if (another || !note_->hasFocus()) {
     note_->setText(QString::fromStdString(node.note));
     note_->setCursorPosition(0);
   }
@@ -286,7 +291,7 @@ void ParameterPanel::refresh() {
     auto stored = node.params.find(name);
     const bool own = stored != node.params.end();
     const Json value = own ? stored->second : param->fallback.value_or(Json());
-    if (!row.field->is_being_edited()) row.field->show_value(value);
+    if (another || !row.field->is_being_edited()) row.field->show_value(value);
     QFont font = row.label->font();
     font.setBold(own && !is_default(*param, value));
     row.label->setFont(font);

@@ -37,7 +37,7 @@ class ParameterPanel : public QWidget {
   };
   void show_node();
   void build(const NodeType& type);
-  void refresh();
+  void refresh(bool another = false);  // another node: nothing that is being typed stays
   void refresh_state();
   int help_height() const;
   void tell_help(const QString& text);
@@ -53,6 +53,7 @@ class ParameterPanel : public QWidget {
   const Theme* theme_;
   std::string node_;       // shown
   std::string node_type_;  // whose rows are built
+  bool of_other_page_ = false;
   std::map<std::string, Row> rows_;
   QWidget* none_;
   QWidget* some_;

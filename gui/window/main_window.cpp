@@ -8,10 +8,12 @@
 #include <QLineEdit>
 #include <QMimeData>
 #include <QProgressBar>
+#include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
 #include <QTabBar>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <utility>
 
 #include "graph/nested.h"
@@ -25,6 +27,11 @@ static void load_pictures() {
 }
 
 namespace kinegraph {
+namespace {
+
+constexpr int frame_room = 40;  // pixels that a window manager may take around a window
+
+}  // namespace
 
 MainWindow::MainWindow(const Registry& registry, const Options& options)
     : registry_(registry),
@@ -86,7 +93,10 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   connect(canvas_, &GraphCanvas::opened_inside, this,
           [this](const QString& node) { open_inside(node.toStdString()); });
   connect(welcome_, &Welcome::chosen, this, &MainWindow::open);
-  connect(page_tabs_, &QTabBar::currentChanged, &session_, &Session::show_page);
+  connect(page_tabs_, &QTabBar::currentChanged, this, [this](int page) {
+    finish_typing();  // a click on a tab takes no keyboard away
+    session_.show_page(page);
+  });
   connect(page_tabs_, &QTabBar::tabCloseRequested, this, &MainWindow::close_page);
   connect(&session_, &Session::page_changed, this, [this] {
     evaluation_.forget();
@@ -132,7 +142,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   reload_.setSingleShot(true);
   reload_.setInterval(150);
   connect(&watcher_, &QFileSystemWatcher::fileChanged, this, &MainWindow::file_changed_on_disk);
-  connect(&session_, &Session::meaning_changed, this, &MainWindow::watch_files);
+  connect(&session_, &Session::meaning_changed, this, &MainWindow::watch_other_files);
   connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, &MainWindow::file_changed_on_disk);
   connect(&reload_, &QTimer::timeout, this, [this] {
     if (std::exchange(inside_changed_, false)) session_.reopen_inside();
@@ -143,7 +153,11 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   bool dark = true;
   if (options_.remember) {
     const auto settings = user_settings();
-    restoreGeometry(settings->value("window/geometry").toByteArray());
+    const bool was_open = restoreGeometry(settings->value("window/geometry").toByteArray());
+    // With its frame it has to fit on the screen.
+    const QSize room = screen()->availableSize() - size();
+    if (!was_open && std::min(room.width() - frame_room, room.height() - frame_room) < 0)
+      setWindowState(Qt::WindowMaximized);
     laid_out_ = restoreState(settings->value("window/layout").toByteArray(), layout_version);
     dark = settings->value("window/theme", "dark").toString() != "light";
   }
@@ -285,8 +299,10 @@ void MainWindow::showEvent(QShowEvent* event) {
 }
 
 // A line takes Ctrl+Z for its own text, also where nothing was typed: then the last step of the graph is
-// meant.
+// meant. And a drag ends with the button, also where what was dragged went away under it.
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::MouseButtonRelease && session_.in_gesture())
+    QMetaObject::invokeMethod(&session_, &Session::end_gesture, Qt::QueuedConnection);
   if (event->type() == QEvent::ShortcutOverride)
     if (const auto* line = qobject_cast<QLineEdit*>(watched)) {
       const auto* keys = static_cast<QKeyEvent*>(event);
@@ -300,6 +316,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  finish_typing();
   if (options_.ask && !may_discard_all()) {
     event->ignore();
     return;

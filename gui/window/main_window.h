@@ -75,6 +75,7 @@ class MainWindow : public QMainWindow {
   void make_menus();
   void make_action(const ActionRow& row, std::function<void()> act);
   void update_actions();
+  void finish_typing();  // what stands in a line is taken as if Enter were pressed
   void update_title();
   void update_progress();
   void update_icons();
@@ -107,6 +108,8 @@ class MainWindow : public QMainWindow {
   void fill_recent(QMenu* menu);
   void tell(const Diagnostics& problems, const QString& title);
   void watch_files();
+  void watch_other_files();  // where an edit names others
+  QStringList files_behind(const Document& document, const QString& folder);
   void file_changed_on_disk(const QString& path);
   void about();
   void show_keys();
@@ -131,6 +134,8 @@ class MainWindow : public QMainWindow {
   QFileSystemWatcher watcher_;
   QTimer reload_, slow_;
   KnownFiles known_files_;
+  QStringList watched_for_;  // by what is open
+  std::map<const Document*, std::pair<std::weak_ptr<const Document>, QStringList>> read_inside_;
   bool laid_out_ = false;  // the docks have their sizes
   bool is_slow_ = false;   // what is evaluated takes long enough to be shown
   bool evaluation_due_ = false, progress_due_ = false, inside_changed_ = false;

@@ -3,8 +3,11 @@
 #include <QDialogButtonBox>
 #include <QDockWidget>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QPlainTextEdit>
+#include <QPointer>
 #include <QTextBrowser>
 #include <QToolBar>
 #include <QToolButton>
@@ -22,7 +25,12 @@ void MainWindow::make_action(const ActionRow& row, std::function<void()> act) {
   made->setShortcut(keys);
   made->setToolTip(QString("%1 (%2)").arg(tr(row.what), keys.toString(QKeySequence::NativeText)));
   made->setStatusTip(tr(row.what));
-  connect(made, &QAction::triggered, this, [act = std::move(act)] { act(); });
+  // Saving, running or another page come after what was typed, which is in a line until it loses the
+  // keyboard.
+  connect(made, &QAction::triggered, this, [this, act = std::move(act)] {
+    finish_typing();
+    act();
+  });
   if (row.where == ActionRow::Where::graph) {
     // Keys of one letter belong to the canvas alone.
     made->setShortcutContext(Qt::WidgetShortcut);
@@ -31,6 +39,14 @@ void MainWindow::make_action(const ActionRow& row, std::function<void()> act) {
     addAction(made);
   }
   actions_[row.name] = made;
+}
+
+void MainWindow::finish_typing() {
+  const QPointer<QWidget> line = QApplication::focusWidget();
+  if (!line || !isAncestorOf(line)) return;
+  if (!qobject_cast<QLineEdit*>(line) && !qobject_cast<QPlainTextEdit*>(line)) return;
+  line->clearFocus();
+  if (line && line->isVisible()) line->setFocus(Qt::OtherFocusReason);
 }
 
 QAction* MainWindow::action(const QString& name) const {
@@ -49,8 +65,8 @@ void MainWindow::make_actions() {
       {"relink", [this] { relink(); }},
       {"close_page", [this] { close_page(session_.page()); }},
       {"quit", [this] { close(); }},
-      {"undo", [this] { session_.undo(); }},
-      {"redo", [this] { session_.redo(); }},
+      {"undo", [this] { canvas_->give_up_gesture() ? void() : session_.undo(); }},
+      {"redo", [this] { canvas_->give_up_gesture() ? void() : session_.redo(); }},
       {"cut", [c] { c->cut_selected(); }},
       {"copy", [c] { c->copy_selected(); }},
       {"paste", [c] { c->paste(); }},
@@ -94,6 +110,7 @@ void MainWindow::make_actions() {
   };
   for (const ActionRow& row : all_actions())
     if (const auto act = acts.find(row.name); act != acts.end()) make_action(row, act->second);
+  actions_.at("redo")->setShortcuts({actions_.at("redo")->shortcut(), QKeySequence("Ctrl+Y")});
 }
 
 void MainWindow::make_menus() {

@@ -21,30 +21,56 @@ std::string bytes_of(const QString& path) {
   return file.readAll().toStdString();
 }
 
-// Files that nodes of a graph read, those of graphs inside it too.
-void collect_read(const Document& document, const Registry& registry, const QString& folder,
-                  QStringList& files) {
+// Files that nodes of a graph read, those of graphs inside it left out.
+QStringList files_read(const Document& document, const Registry& registry, const QString& folder) {
+  QStringList files;
   for (const auto& [name, node] : document.nodes) {
+    if (node.params.empty()) continue;
     const NodeType* type = known_type(registry, node);
     if (!type) continue;
     for (const auto& [key, value] : node.params) {
+      if (!value.is_string() || value.string().empty()) continue;
       const Param* param = type->find_param(key);
-      if (param && param->kind == ParamType::Kind::open_file && value.is_string() && !value.string().empty())
+      if (param && param->kind == ParamType::Kind::open_file)
         files << QDir(folder).absoluteFilePath(QString::fromStdString(value.string()));
     }
-    if (node.nested && node.nested->document)
-      collect_read(*node.nested->document, registry, QString::fromStdString(node.nested->folder), files);
   }
+  return files;
 }
 
 }  // namespace
 
+// Graphs inside are the same until they are read anew, and may be large: each is walked through once.
+QStringList MainWindow::files_behind(const Document& document, const QString& folder) {
+  QStringList files = files_read(document, registry_, folder);
+  std::set<const Document*> met;
+  for (const auto& [name, node] : document.nodes) {
+    if (!node.nested) continue;
+    const auto& inside = node.nested->document;
+    if (!node.nested->path.empty()) files << QString::fromStdString(node.nested->path);
+    if (!inside || !met.insert(inside.get()).second) continue;
+    auto& known = read_inside_[inside.get()];
+    if (known.first.lock() != inside)
+      known = {inside, files_behind(*inside, QString::fromStdString(node.nested->folder))};
+    files << known.second;
+  }
+  return files;
+}
+
 void MainWindow::watch_files() {
+  watched_for_.clear();
+  watch_other_files();
+}
+
+// Which files an edit leaves as they are needn't be looked for: that can take long where they lie far away.
+void MainWindow::watch_other_files() {
+  std::erase_if(read_inside_, [](const auto& one) { return one.second.first.expired(); });
   QStringList wanted;
   if (!session_.path().isEmpty()) wanted << session_.path();
-  wanted << session_.files_inside();
-  collect_read(session_.document(), registry_, session_.folder(), wanted);
+  wanted << files_behind(session_.document(), session_.folder());
   wanted.removeDuplicates();
+  if (!wanted.isEmpty() && wanted == watched_for_) return;
+  watched_for_ = wanted;
   const QStringList watched = watcher_.files() + watcher_.directories();
   QStringList gone, fresh;
   // Of a file that isn't there the folder is watched, where it may appear.

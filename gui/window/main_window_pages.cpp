@@ -29,6 +29,7 @@ void MainWindow::update_pages() {
 }
 
 void MainWindow::close_page(int page) {
+  finish_typing();
   const int before = session_.page();
   session_.show_page(page);
   if (!may_discard()) {

@@ -7,6 +7,7 @@
 #include <QAbstractItemView>
 #include <QAbstractSlider>
 #include <QAbstractSpinBox>
+#include <QAccessible>
 #include <QComboBox>
 #include <QDir>
 #include <QDockWidget>
@@ -69,6 +70,36 @@ int tab_through(QWidget& room) {
     QCoreApplication::processEvents();
   }
   return int(seen.size());
+}
+
+TEST(EditorControls, AScreenReaderFindsEveryNodeWithItsStateAndLinks) {
+  Editor editor;
+  editor.session().open_text(R"({"format": "kinegraph", "schema": 1, "nodes": {
+    "walk": {"type": "Gait"}, "soft": {"type": "Filter", "inputs": {"motion": "walk.motion"}}}})",
+                             {});
+  editor.key(Qt::Key_Right);
+  ASSERT_TRUE(editor.wait_for_evaluation());
+  Editor::settle();
+  QAccessibleInterface* canvas = QAccessible::queryAccessibleInterface(&editor.canvas());
+  ASSERT_TRUE(canvas);
+  EXPECT_EQ(canvas->text(QAccessible::Name), "Graph");
+  ASSERT_EQ(canvas->childCount(), 2);
+  QAccessibleInterface* soft = canvas->child(0);
+  QAccessibleInterface* walk = canvas->child(1);
+  EXPECT_EQ(soft->text(QAccessible::Name), "soft, Filter");
+  EXPECT_EQ(soft->text(QAccessible::Description), "motion from walk.motion");
+  EXPECT_EQ(walk->text(QAccessible::Description), "to soft.motion");
+  EXPECT_FALSE(walk->text(QAccessible::Value).isEmpty());
+  EXPECT_EQ(walk->parent(), canvas);
+  EXPECT_EQ(canvas->indexOfChild(walk), 1);
+  EXPECT_EQ(canvas->childAt(walk->rect().center().x(), walk->rect().center().y()), walk);
+  EXPECT_EQ(canvas->focusChild(), walk);
+  EXPECT_TRUE(walk->state().focused && walk->state().selected);
+  editor.key(Qt::Key_Right);
+  EXPECT_EQ(canvas->focusChild(), soft);
+  editor.key(Qt::Key_Delete);
+  EXPECT_FALSE(soft->isValid());
+  EXPECT_EQ(canvas->childCount(), 1);
 }
 
 // An example, opened as a copy: what is tried here leaves nothing beside the original.
