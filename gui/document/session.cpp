@@ -3,7 +3,6 @@
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
-#include <QStandardPaths>
 
 #include "graph/file/diff.h"
 #include "graph/file/read.h"
@@ -14,12 +13,12 @@
 #include "graph/nested.h"
 #include "graph/validate.h"
 #include "gui/document/aside.h"
+#include "gui/document/autosave_slot.h"
 
 namespace kinegraph {
 namespace {
 
 constexpr int autosave_after_ms = 2000;
-constexpr auto aside = ".found";  // after an autosave's name: it is an ended session's
 
 bool only_for_the_eye(const Edit& edit) {
   for (const Change& change : edit.changes) {
@@ -75,13 +74,6 @@ Diagnostics unreadable(const QString& path, const QString& why) {
   return {error("unreadable-file", "can't be read: " + why.toStdString())
               .in_file(path.toStdString())
               .hinting("check that the file is there and may be read")};
-}
-
-// An autosave that is newer than its graph.
-bool is_unsaved_work(const QString& autosave, const QString& graph) {
-  const QFileInfo file(autosave);
-  if (!file.exists() || file.size() == 0) return false;
-  return graph.isEmpty() || file.lastModified() >= QFileInfo(graph).lastModified();
 }
 
 }  // namespace
@@ -180,6 +172,7 @@ void Session::save_as(const QString& path) {
   page_->text_on_disk = saved;
   discard_autosave();
   page_->path = QFileInfo(path).absoluteFilePath();
+  if (moved) page_->slot.reset();
   if (elsewhere) {
     move_paths(page_->history, page_->document, registry_, move);
     page_->document = std::move(document);
@@ -191,29 +184,34 @@ void Session::save_as(const QString& path) {
   if (moved) emit meaning_changed();
 }
 
+Session::Page::Page() = default;
+Session::Page::~Page() = default;
+
+AutosaveSlot& Session::slot() const {
+  if (!page_->slot) page_->slot = std::make_unique<AutosaveSlot>(page_->path, folder());
+  return *page_->slot;
+}
+
 QString Session::autosave_path() const {
-  const QString name =
-      "." + (page_->path.isEmpty() ? QString("untitled.kg.json") : QFileInfo(page_->path).fileName()) +
-      ".autosave";
-  const QFileInfo beside(folder());
-  if (!page_->path.isEmpty() && beside.isWritable()) return QDir(folder()).filePath(name);
-  const QString state = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation);
-  QDir().mkpath(state);
-  // Files of one name in several folders must not share an autosave.
-  return QDir(state).filePath(QString::number(qHash(folder()), 16) + name);
+  return slot().file();
+}
+
+bool Session::is_open_elsewhere() const {
+  return !page_->path.isEmpty() && !slot().is_first();
 }
 
 bool Session::autosave_found() const {
-  // What was put aside was never answered: that the graph was saved since says nothing about it.
-  return is_unsaved_work(autosave_path(), path()) || is_unsaved_work(autosave_path() + aside, {});
+  return !slot().left_behind().isEmpty();
 }
 
 void Session::keep_found() {
-  const QString fresh = autosave_path();
-  page_->found = fresh + aside;
-  if (!is_unsaved_work(fresh, path())) return;
+  const QStringList left = slot().left_behind();
+  if (left.isEmpty()) return;
+  page_->found = left.front();
+  if (page_->found.endsWith(AutosaveSlot::aside)) return;
+  page_->found += AutosaveSlot::aside;
   QFile::remove(page_->found);
-  QFile::rename(fresh, page_->found);
+  QFile::rename(left.front(), page_->found);
 }
 
 Diagnostics Session::recover() {
@@ -291,13 +289,13 @@ void Session::end_gesture() {
 
 void Session::undo() {
   if (!can_undo()) return;
-  end_gesture();
+  gesture_started_ = false;  // what a drag still does is a step of its own
   after(page_->history.undo(page_->document));
 }
 
 void Session::redo() {
   if (!can_redo()) return;
-  end_gesture();
+  gesture_started_ = false;
   after(page_->history.redo(page_->document));
 }
 

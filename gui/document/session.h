@@ -21,6 +21,7 @@
 namespace kinegraph {
 
 class Aside;
+class AutosaveSlot;
 
 class Session : public QObject {
   Q_OBJECT
@@ -87,7 +88,9 @@ class Session : public QObject {
   // most two seconds behind the work. One newer than the file is what an ended session left: autosave_found()
   // tells of it, keep_found() puts it aside so that this session's own can't take its place, recover() takes
   // it up as one undo step, discard_found() throws it away.
+  // Where another editor, or page, has the same graph open, each has an autosave of its own.
   QString autosave_path() const;
+  bool is_open_elsewhere() const;
   bool autosave_found() const;
   void keep_found();
   Diagnostics recover();
@@ -137,10 +140,13 @@ class Session : public QObject {
 
  private:
   struct Page {
+    Page();
+    ~Page();
     Document document;
     History history;
     QString path;
     std::string text_on_disk;
+    std::unique_ptr<AutosaveSlot> slot;  // made when it is first asked for
     QString found;  // the autosave of an ended session, put aside; empty where there is none
     Diagnostics problems;
     std::set<std::string> selected;
@@ -156,6 +162,7 @@ class Session : public QObject {
   void end_reading();
   void keep_selection_valid();
   bool write_autosave();
+  AutosaveSlot& slot() const;
 
   const Registry& registry_;
   std::vector<std::unique_ptr<Page>> pages_;

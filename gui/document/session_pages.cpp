@@ -5,6 +5,7 @@
 
 #include "graph/nested.h"
 #include "gui/document/aside.h"
+#include "gui/document/autosave_slot.h"
 #include "gui/document/session.h"
 
 namespace kinegraph {

@@ -88,6 +88,10 @@ bool MainWindow::open(const QString& path) {
                  tr("%1 was made by a newer Kinegraph. It can be looked at but not changed or saved; update "
                     "Kinegraph to work on it.")
                      .arg(session_.title()));
+  if (session_.is_open_elsewhere())
+    notice_->say(tr("%1 is open in another editor as well. Each has its own changes; once they are saved "
+                    "there, they can be merged in here.")
+                     .arg(session_.title()));
   offer_missing_files();
   offer_autosave();
   return true;

@@ -49,16 +49,26 @@ struct OnDisk : Editor {
   QString path;
 };
 
+// A session with unsaved work that ended without a word.
+struct Ended {
+  Ended() {
+    OnDisk editor;
+    editor.add("gait");
+    text = editor.session().text();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return QFile::exists(editor.session().autosave_path()); }, 5000));
+    for (const char* file : {"main.kg.json", ".main.kg.json.autosave"})
+      EXPECT_TRUE(QFile::copy(editor.folder.filePath(file), folder.filePath(file)));
+  }
+  QString path() const { return folder.filePath("main.kg.json"); }
+  QTemporaryDir folder;
+  std::string text;
+};
+
 TEST(EditorOnDisk, AnAutosaveIsOfferedAndTakenUpAsOneStep) {
-  QString path;
-  std::string wanted;
-  OnDisk first;
-  first.add("gait");
-  wanted = first.session().text();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(first.session().autosave_path()); }, 5000));
-  // Another start of the editor, as after a crash of the first.
+  Ended first;
+  const std::string& wanted = first.text;
   Editor second;
-  ASSERT_TRUE(second.window.open(first.path));
+  ASSERT_TRUE(second.window.open(first.path()));
   EXPECT_NE(second.session().text(), wanted);
   QPushButton* take = nullptr;
   for (QPushButton* button : second.window.findChild<QWidget*>("notice_bar")->findChildren<QPushButton*>())
@@ -164,22 +174,77 @@ TEST(EditorOnDisk, WhoNeverRestsIsAutosavedToo) {
 }
 
 TEST(EditorOnDisk, NewWorkDoesNotOverwriteTheAutosaveThatIsOffered) {
-  OnDisk first;
-  first.add("gait");
-  const std::string wanted = first.session().text();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(first.session().autosave_path()); }, 5000));
-  Editor second;
-  ASSERT_TRUE(second.window.open(first.path));
-  second.add("metrics");
-  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(second.session().autosave_path()); }, 5000));
+  Ended first;
+  const auto is_offered = [](Editor& editor) {
+    for (auto* one : editor.window.findChild<QWidget*>("notice_bar")->findChildren<QPushButton*>())
+      if (one->text() == "Take it up") return true;
+    return false;
+  };
+  {
+    Editor second;
+    ASSERT_TRUE(second.window.open(first.path()));
+    EXPECT_TRUE(is_offered(second));
+    second.add("metrics");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(second.session().autosave_path()); }, 5000));
+    ASSERT_TRUE(QFile::remove(second.session().autosave_path()));
+  }
   // Not answered: a third start still offers the first work.
   Editor third;
+  ASSERT_TRUE(third.window.open(first.path()));
+  EXPECT_TRUE(is_offered(third));
+  QFile kept(third.session().autosave_path() + ".found");
+  ASSERT_TRUE(kept.open(QIODevice::ReadOnly));
+  EXPECT_EQ(kept.readAll().toStdString(), first.text);
+}
+
+TEST(EditorOnDisk, TwoEditorsOfOneGraphKeepTheirOwnUnsavedWork) {
+  OnDisk first;
+  first.add("gait");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(first.session().autosave_path()); }, 5000));
+  {
+    Editor second;
+    ASSERT_TRUE(second.window.open(first.path));
+    // It is told of the other, and isn't given what that one is at.
+    auto* notice = second.window.findChild<QWidget*>("notice_bar");
+    EXPECT_TRUE(notice->isVisible());
+    EXPECT_FALSE(second.session().autosave_found());
+    second.add("metrics");
+    ASSERT_NE(second.session().autosave_path(), first.session().autosave_path());
+    ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(second.session().autosave_path()); }, 5000));
+    // The one that saves throws away its own alone.
+    QApplication::setActiveWindow(&first.window);
+    first.canvas().setFocus();
+    first.key(Qt::Key_S, Qt::ControlModifier);
+    EXPECT_FALSE(QFile::exists(first.session().autosave_path()));
+    EXPECT_TRUE(QFile::exists(second.session().autosave_path()));
+  }
+  Editor third;
   ASSERT_TRUE(third.window.open(first.path));
-  QPushButton* take = nullptr;
-  for (QPushButton* button : second.window.findChild<QWidget*>("notice_bar")->findChildren<QPushButton*>())
-    if (button->text() == "Take it up") take = button;
-  ASSERT_TRUE(take);
   EXPECT_TRUE(third.session().autosave_found());
+  third.session().keep_found();
+  EXPECT_FALSE(has_error(third.session().recover()));
+  third.session().discard_autosave();
+}
+
+TEST(EditorOnDisk, GraphsThatWereNeverSavedKeepTheirWorkApart) {
+  Editor editor;
+  editor.add("gait");
+  const QString one = editor.session().autosave_path();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(one); }, 5000));
+  editor.session().new_page();
+  editor.canvas().setFocus();
+  editor.add("metrics");
+  const QString two = editor.session().autosave_path();
+  EXPECT_NE(one, two);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(two); }, 5000));
+  QFile file(one);
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  EXPECT_TRUE(file.readAll().contains("Gait"));
+  for (int page : {1, 0}) {
+    editor.session().show_page(page);
+    editor.session().discard_autosave();
+  }
+  EXPECT_FALSE(QFile::exists(one) || QFile::exists(two));
 }
 
 TEST(EditorOnDisk, SavingDoesNotWriteOverWhatAColleagueSaved) {
