@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QEventLoop>
+#include <QThread>
 
 #include "gui/viewer/picture_maker.h"
 #include "gui/viewer/viewer.h"
@@ -10,7 +11,7 @@
 namespace kinegraph {
 namespace {
 
-constexpr int patience_ms = 60000;
+constexpr int patience_ms = 60000, rest_ms = 2;
 
 }  // namespace
 
@@ -18,11 +19,16 @@ void wait_until_drawn(MainWindow& window, int settle_ms) {
   QElapsedTimer all, quiet;
   all.start();
   quiet.start();
-  const auto pass = [&] { QApplication::processEvents(QEventLoop::AllEvents, 20); };
+  // Evaluation has the lower priority: a loop without rest would take its time away.
+  const auto pass = [&] {
+    QApplication::processEvents(QEventLoop::AllEvents, 20);
+    QThread::msleep(rest_ms);
+  };
+  const QList<Viewer*> viewers = window.findChildren<Viewer*>();
   while (all.elapsed() < patience_ms && quiet.elapsed() < settle_ms) {
     pass();
     bool busy = window.is_evaluating();
-    for (Viewer* viewer : window.findChildren<Viewer*>()) busy |= viewer->motions().is_busy();
+    for (Viewer* viewer : viewers) busy |= viewer->motions().is_busy();
     if (busy) quiet.restart();
   }
   // What plays by itself is never at rest: two more pictures of it are enough.
