@@ -89,7 +89,8 @@ bool MainWindow::open(const QString& path) {
                     "Kinegraph to work on it.")
                      .arg(session_.title()));
   if (session_.is_open_elsewhere())
-    notice_->say(tr("%1 is open in another editor as well. Each has its own changes; once they are saved "
+    notice_->say(NoticeBar::Kind::warning,
+                 tr("%1 is open in another editor as well. Each has its own changes; once they are saved "
                     "there, they can be merged in here.")
                      .arg(session_.title()));
   offer_missing_files();
