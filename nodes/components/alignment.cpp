@@ -150,7 +150,7 @@ class Collector {
         chosen.insert(chosen.end(), 3, joint);
       chosen.insert(chosen.end(), root_axes, false);
     }
-    const auto partner = partners(b_.motion->skeleton(), skeleton, {});
+    const auto partner = joints_of_b();
     const EncodedRoot root_a = encode_root(*a_.motion, work_), root_b = encode_root(*b_.motion, work_);
     const Features features =
         features_of(rotation_vectors(*a_.motion, root_a, work_), root_a,
@@ -159,6 +159,15 @@ class Collector {
       const auto s = features.source.dim(d), r = features.reference.dim(d);
       pairs_.add({s.begin(), s.end()}, {r.begin(), r.end()});
     }
+  }
+  // For each joint of a's motion that of b's: by name, and as the components' map says.
+  std::vector<int> joints_of_b() const {
+    const Skeleton &a = a_.motion->skeleton(), &b = b_.motion->skeleton();
+    std::vector<int> partner = partners(b, a, {});
+    const auto in_a = joints_of(components_.space, a), in_b = joints_of(components_.space, b);
+    for (std::size_t s = 0; s < in_a.size(); ++s)
+      if (in_a[s] >= 0 && in_b[s] >= 0) partner[static_cast<std::size_t>(in_a[s])] = in_b[s];
+    return partner;
   }
   void of_points(std::string_view pattern, bool dof) {
     int only = -1;
@@ -286,10 +295,7 @@ Rows at_times(const Rows& rows, const std::vector<double>& times) {
 
 Motion at_times(const Motion& motion, const std::vector<double>& times) {
   Motion out = motion.empty_like(times.size());
-  auto facts = std::make_shared<SourceFacts>(motion.source());
-  facts->read.reset();  // angles as read belong to the old clock
-  facts->read_frames = 0;
-  out.set_source(std::move(facts));
+  out.set_source(without_read(motion.shared_source()));  // those angles belong to the old clock
   for (int j = 0; j < motion.joints(); ++j) {
     const auto from = motion.rotation(j);
     const auto to = out.rotation(j);

@@ -104,10 +104,6 @@ std::vector<std::optional<double>> emotion_distances(const Components& component
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 // The period of a segment's signal in frames, 0 = none, and how much of its variance repeats.
 struct Beat {
   std::size_t period = 0;

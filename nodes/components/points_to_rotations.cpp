@@ -51,10 +51,6 @@ std::array<double, 4> largest_eigenvector(Matrix4 a) {
   return {v[0][best], v[1][best], v[2][best], v[3][best]};
 }
 
-}  // namespace
-
-namespace {
-
 // The same where the eigenvector is nearer to (1, 0, 0, 0) than to its opposite: (1, x) with
 // x = (λ - M)⁻¹ v for n = [n00 vᵀ; v M], λ by Newton's method on the secular equation λ = n00 + vᵀx. λ - M
 // being positive definite, no other eigenvalue is larger. False where that isn't so.

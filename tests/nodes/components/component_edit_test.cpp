@@ -398,6 +398,38 @@ TEST(ComponentEdit, FindsAnAlignmentOnceForEveryAmount) {
   }
 }
 
+// Either way round: the map says which joints of another skeleton are compared.
+TEST(ComponentEdit, AlignsClipsOfOtherJointNamesByTheComponentsMap) {
+  Alone work;
+  const auto walk = shared(gait("walk", 1)), sneak = shared(gait("sneak", 1.3));
+  Skeleton renamed = sneak->skeleton();
+  std::vector<std::string> map;
+  for (Joint& joint : renamed.joints) {
+    map.push_back("Bip" + joint.name + "=" + joint.name);
+    joint.name = "Bip" + joint.name;
+  }
+  Motion other(std::make_shared<const Skeleton>(renamed), sneak->shared_source(), sneak->fps(),
+               sneak->frames(), sneak->translating());
+  for (int j = 0; j < other.joints(); ++j) {
+    for (std::size_t t = 0; t < other.frames(); ++t) {
+      other.rotation(j).set(t, sneak->rotation(j)[t]);
+      if (other.translates(j)) other.translation(j).set(t, sneak->translation(j)[t]);
+    }
+  }
+  const std::vector<bool> all(static_cast<std::size_t>(walk->joints()), true);
+  const auto path = [&](const Clips& clips, const std::vector<std::string>& names, std::size_t a,
+                        const std::vector<std::string>& align) {
+    IcaParams params;
+    params.components = 2;
+    const Components c = components_of_motions(
+        space_of_motions(Representation::points, clips, all, true, names, work), clips, params, work);
+    return aligned_segments(c, c.segments[a], c.segments[1 - a], align, "align", work).pairs;
+  };
+  const Clips mapped{walk, shared(std::move(other))}, same{walk, sneak};
+  for (std::size_t a : {0u, 1u}) EXPECT_EQ(path(mapped, map, a, {}), path(same, {}, a, {})) << a;
+  EXPECT_EQ(path(mapped, map, 0, {"joint:*Leg"}), path(same, {}, 0, {"joint:*Leg"}));
+}
+
 TEST(ComponentEdit, TellsTheWarningsOfARememberedAlignmentAgain) {
   Alone first, second;
   const Components c =
