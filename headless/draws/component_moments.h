@@ -13,12 +13,11 @@ struct Moment {
   double part;  // where it stands along the strip: the middle of its share, in [0, 1]
 };
 
-// About a dozen, evenly: so many that the poses of a gait don't all fall on the same phases of its cycle or
-// of half of it, as the strip would seem to stand still then. Without frames none.
+// About a dozen, evenly: so many that they show most of what the components do. Without frames none.
 std::vector<Moment> even_moments(const Components& components);
 
-// The same for one component (from 0): where no moment shows four fifths of the most that it does in one
-// direction, the nearest moment shows that.
+// The same for one component (from 0): where no moment of a clip comes within a fifth of the component's
+// range of the most that it does there in one direction, the nearest moment shows that.
 std::vector<Moment> telling_moments(const Components& components, std::vector<Moment> moments,
                                     std::size_t entry);
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "nodes/motion/elementary.h"
+
 namespace kinegraph {
 namespace {
 
@@ -38,10 +40,11 @@ TEST(ComponentMoments, AreEvenInEverySegment) {
 
 TEST(ComponentMoments, ShowWhatAComponentDoesBetweenThem) {
   Components c = resting(400, 800);
+  const auto even = even_moments(c);
   for (std::size_t t = 610; t < 640; ++t) c.signals(0, t) = 4;   // a mouth that opens in the second clip
   for (std::size_t t = 170; t < 190; ++t) c.signals(0, t) = -2;  // and is pressed together in the first
   c.signals(0, 180) = -2.5;
-  const auto even = even_moments(c), telling = telling_moments(c, even, 0);
+  const auto telling = telling_moments(c, even, 0);
   ASSERT_EQ(telling.size(), even.size());
   for (std::size_t i = 0; i < even.size(); ++i) {
     EXPECT_EQ(telling[i].frame, i == 1 ? 180u : i == 6 ? 610u : even[i].frame) << i;
@@ -56,13 +59,29 @@ TEST(ComponentMoments, ShowWhatAComponentDoesBetweenThem) {
 
 TEST(ComponentMoments, ShowBothDirectionsOneAfterTheOther) {
   Components c = resting(400, 800);
+  const auto even = even_moments(c);
   c.signals(0, 602) = -4;
   c.signals(0, 615) = 4;  // both are nearest to the moment at 650
-  const auto moments = telling_moments(c, even_moments(c), 0);
+  const auto moments = telling_moments(c, even, 0);
   EXPECT_EQ(moments[5].frame, 602u);
   EXPECT_EQ(moments[6].frame, 615u);
   EXPECT_EQ(moments[4].frame, 450u);
   EXPECT_EQ(moments[7].frame, 750u);
+}
+
+// A gait of 100 frames a cycle, which a dozen moments would meet at one phase.
+TEST(ComponentMoments, ShowMoreThanOnePhaseOfAGait) {
+  Components c = resting(400, 800);
+  for (std::size_t t = 0; t < c.frames(); ++t) c.signals(0, t) = sine(2 * pi * static_cast<double>(t) / 100);
+  const auto moments = even_moments(c);
+  EXPECT_NE(moments.size(), 12u);
+  double low = 0, high = 0;
+  for (const Moment& moment : telling_moments(c, moments, 0)) {
+    low = std::min(low, c.signals(0, moment.frame));
+    high = std::max(high, c.signals(0, moment.frame));
+  }
+  EXPECT_LT(low, -0.6);
+  EXPECT_GT(high, 0.6);
 }
 
 TEST(ComponentMoments, AreNoneWithoutFrames) {
