@@ -114,9 +114,11 @@ Character marker_mesh(const Points& points, const Character& character, const Ma
                       Work& work) {
   const int markers = static_cast<int>(points.labels.size());
   if (params.rest_frame < 0 || static_cast<std::size_t>(params.rest_frame) >= points.frames)
-    throw Failure(
-        error("bad-frame", fmt::format("rest_frame is {} of {} frames", params.rest_frame, points.frames))
-            .at_param("rest_frame"));
+    throw Failure(error("bad-frame", fmt::format("the points have no frame {}", params.rest_frame))
+                      .at_param("rest_frame")
+                      .hinting(points.frames == 0
+                                   ? std::string("they have no frames")
+                                   : fmt::format("they have frames 0 to {}", points.frames - 1)));
   check_whole(points);
   const auto rest_frame = static_cast<std::size_t>(params.rest_frame);
   const Pose rest = rest_pose_of(*character.skeleton);
@@ -158,7 +160,10 @@ Character marker_mesh(const Points& points, const Character& character, const Ma
       if (vertices[vertex_of[other]] == vertices[vertex])
         throw Failure(error("same-vertex", fmt::format("{} and {} stand on one vertex, {}",
                                                        points.labels[other], points.labels[m], vertex))
-                          .hinting("name their vertices in pairs")
+                          .hinting(named.size() < 3
+                                       ? "name the vertices of three markers or more in pairs: they tell "
+                                         "where the others look for theirs"
+                                       : "name their vertices in pairs")
                           .at_param("pairs"));
     vertex_of.push_back(vertex);
     targets.push_back(vertices[vertex]);

@@ -14,7 +14,10 @@ NodeType marker_mesh_node() {
   type.input("points", {"Points"}, "The markers.");
   type.input("character", {"Character"}, "The mesh.");
   type.output("character", "Character", "The mesh that moves with the markers.", "character");
-  type.param("pairs", list(text("")), "MARKER=VERTEX: the vertex a marker sits on. Others take the nearest.");
+  type.param("pairs", list(text("")),
+             "MARKER=VERTEX: the vertex a marker sits on. Others take the nearest; three or more tell how "
+             "the markers "
+             "lie to the mesh.");
   type.param("rest_frame", integer(0).between(0, 1e9).in("frame"),
              "The frame of the markers in which the face is the mesh's.");
   type.compute = [](Compute& compute) {

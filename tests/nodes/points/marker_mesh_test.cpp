@@ -85,19 +85,26 @@ TEST(MarkerMesh, CarriesAnAffineChangeToTheWholeMesh) {
 TEST(MarkerMesh, RefusesWhatItCannotUse) {
   Alone work;
   const Character character = sheet();
-  auto code = [&](const Points& points, MarkerMeshParams params, const Character& mesh) -> std::string {
+  auto refused = [&](const Points& points, MarkerMeshParams params, const Character& mesh) -> Diagnostic {
     try {
       marker_mesh(points, mesh, params, work);
-      return "done";
+      return {};
     } catch (const Failure& failure) {
-      return failure.diagnostic().code;
+      return failure.diagnostic();
     }
+  };
+  auto code = [&](const Points& points, MarkerMeshParams params, const Character& mesh) {
+    return refused(points, std::move(params), mesh).code;
   };
   Points points = markers(character);
   EXPECT_EQ(code(points, {{"x=1"}, 0}, character), "unknown-marker");
   EXPECT_EQ(code(points, {{"a=99"}, 0}, character), "bad-pair");
   EXPECT_EQ(code(points, {{"a=3", "b=3"}, 0}, character), "same-vertex");
+  EXPECT_EQ(
+      refused(points, {{"a=3", "b=3"}, 0}, character).hint,
+      "name the vertices of three markers or more in pairs: they tell where the others look for theirs");
   EXPECT_EQ(code(points, {{}, 4}, character), "bad-frame");
+  EXPECT_EQ(refused(points, {{}, 4}, character).hint, "they have frames 0 to 3");
   EXPECT_EQ(code(points, {}, Character()), "no-mesh");
   points.set_missing(2, 3);
   EXPECT_EQ(code(points, {}, character), "missing-samples");
