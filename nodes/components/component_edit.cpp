@@ -10,7 +10,7 @@
 #include "nodes/components/alignment.h"
 #include "nodes/components/held_frames.h"
 #include "nodes/components/rebuild.h"
-#include "nodes/components/shown_channels.h"
+#include "nodes/components/substitution.h"
 #include "nodes/node_params.h"
 #include "nodes/time/displacement.h"
 #include "nodes/time/lowpass.h"
@@ -105,7 +105,11 @@ class Editing {
   }
 
   void operator()(const edits::CopyAdd& edit) {
-    if (!inputs_.other) throw no_input("other");
+    if (!inputs_.other)
+      throw Failure(error("no-input", "this edit needs the input `other`")
+                        .at_port("other")
+                        .at_param(where_)
+                        .hinting("link other Components"));
     const Components& other = *inputs_.other;
     if (other.space.representation != now_.space.representation ||
         other.space.channel_names() != now_.space.channel_names())
@@ -154,24 +158,9 @@ class Editing {
   void operator()(const edits::Substitute& edit) {
     std::vector<std::size_t> entries;
     for (const ComponentTerm& term : terms(edit.component)) entries.push_back(term.index);
-    const Rows alone = channels_from_signals(now_, u_, entries);
-    if (!inputs_.edited_points && !inputs_.edited_motion) throw no_input("edited");
-    check_length(inputs_.edited_motion ? inputs_.edited_motion->frames() : inputs_.edited_points->frames);
+    const Rows change = substitution(now_, base(), u_, entries, inputs_, where_, work_);
     Rows& added = make_added();
-    if (inputs_.edited_motion && base().motion)
-      add_edited_motion(added, alone, entries);
-    else if (inputs_.edited_points && base().points)
-      add(added, channels_of(now_.space, *inputs_.edited_points, work_), alone);
-    else if (inputs_.edited_points && now_.space.representation == Representation::points)
-      add_edited_points(added, alone);
-    else
-      throw Failure(error("wrong-kind", fmt::format("the edited clip is {}, the components are of {}",
-                                                    inputs_.edited_motion ? "a motion" : "points",
-                                                    base().points ? "points" : "rotations"))
-                        .at_port("edited")
-                        .at_param(where_)
-                        .hinting(fmt::format("link what came of ComponentMotion's output `{}`",
-                                             base().points ? "points" : "motion")));
+    for (std::size_t i = 0; i < added.data.size(); ++i) added.data[i] += change.data[i];
   }
 
   void operator()(const edits::Warp& edit) {
@@ -222,54 +211,12 @@ class Editing {
   Failure fail(const char* code, std::string_view at_field, std::string message, std::string hint) const {
     return Failure(error(code, std::move(message)).at_param(field(at_field)).hinting(std::move(hint)));
   }
-  Failure no_input(const char* port) const {
-    return Failure(error("no-input", fmt::format("this edit needs the input `{}`", port))
-                       .at_port(port)
-                       .at_param(where_)
-                       .hinting(std::string("link ") +
-                                (port[0] == 'o' ? "other Components" : "a changed ComponentMotion")));
-  }
-  void check_length(std::size_t count) const {
-    if (count != frames())
-      throw Failure(
-          error("wrong-length", fmt::format("the edited clip has {} frames, the segment {}", count, frames()))
-              .at_port("edited")
-              .at_param(where_)
-              .hinting("its nodes must keep the number of frames"));
-  }
   std::vector<ComponentTerm> terms(const ComponentRef& ref) const {
     return terms_of(ref, now_.count(), now_.groups, field("component"));
   }
   Rows& make_added() {
     if (added_.data.empty()) added_ = Rows(now_.mixing.rows, frames());
     return added_;
-  }
-  // ComponentMotion gave a clip with whole bones; what that alone changed is no edit. `alone`: the component
-  // as it is now.
-  void add_edited_motion(Rows& added, const Rows& alone, const std::vector<std::size_t>& entries) {
-    const Motion& motion = *inputs_.edited_motion;
-    ShownKey key{{base().motion}, entries, {}};
-    for (std::size_t i : entries) key.signals.insert(key.signals.end(), u_.row(i), u_.row(i) + frames());
-    const auto shown = now_.memory->shown.get(
-        key, [&](Work& work) { return channels_as_shown(now_.space, alone, *base().motion, work); }, work_);
-    std::vector<double> near, first;  // only Euler angles have turns to count
-    if (now_.space.representation == Representation::euler && frames() > 0) {
-      for (std::size_t d = 0; d < alone.rows; ++d) near.push_back(alone(d, 0));
-      first = first_angles_of(now_.space, motion, near, work_);
-    }
-    const auto edited = now_.memory->edited.get(
-        {{inputs_.edited_motion}, first},
-        [&](Work& work) { return channels_of(now_.space, motion, near, work); }, work_);
-    add(added, *edited, *shown);
-  }
-  void add_edited_points(Rows& added, const Rows& alone) {
-    const Motion& path = *base().motion;
-    const Points shown = points_from_channels(now_.space, alone, path, {}, work_);
-    add(added, channels_on_path(now_.space, *inputs_.edited_points, path, work_),
-        channels_on_path(now_.space, shown, path, work_));
-  }
-  static void add(Rows& sum, const Rows& plus, const Rows& minus) {
-    for (std::size_t i = 0; i < sum.data.size(); ++i) sum.data[i] += plus.data[i] - minus.data[i];
   }
 
   double fade_seconds() const { return params_.lowpass > 0 ? 1 / params_.lowpass : 0; }
