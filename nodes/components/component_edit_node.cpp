@@ -168,7 +168,7 @@ NodeType component_edit_node() {
              "Smooths signals that an edit warped in time or replaced; 0 = off.");
   type.param("root", boolean(true), "Puts the clip's path and heading back; off: on the spot.");
   type.param("residual", boolean(false), "Adds what the components leave out of the clip.");
-  type.code_version = 7;
+  type.code_version = 8;
   type.compute = edit;
   return type;
 }

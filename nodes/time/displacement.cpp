@@ -3,12 +3,15 @@
 namespace kinegraph {
 namespace {
 
-// Slopes at the knots of the C² cubic spline that is level at both ends: a tridiagonal system.
+// Slopes at the knots of the C² cubic spline that is level at both ends, and wherever it rests at 0 from one
+// knot to the next: a tridiagonal system.
 std::vector<Vec3> slopes(const std::vector<double>& at, const std::vector<Vec3>& value) {
   const std::size_t last = at.size() - 1;
   std::vector<Vec3> slope(at.size());
   std::vector<double> upper(at.size(), 0.0);
+  const auto is_zero = [&](std::size_t i) { return value[i] == Vec3{}; };
   for (std::size_t i = 1; i < last; ++i) {
+    if (is_zero(i) && (is_zero(i - 1) || is_zero(i + 1))) continue;
     const double before = at[i] - at[i - 1], after = at[i + 1] - at[i];
     const Vec3 right =
         3 * (after / before * (value[i] - value[i - 1]) + before / after * (value[i + 1] - value[i]));

@@ -128,6 +128,11 @@ class Warping {
       std::map<std::size_t, Vec3> knots;
       Quat last;  // turns that follow each other take the near way round
       for (const auto& [frame, rotation] : wanted) {
+        if (rotation == from[frame]) {  // an anchor
+          last = {};
+          knots[frame] = {};
+          continue;
+        }
         last = nearer(rotation * inverse(from[frame]), knots.empty() ? Quat{} : last);
         knots[frame] = log(last);
       }

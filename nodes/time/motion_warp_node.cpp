@@ -50,8 +50,8 @@ NodeType motion_warp_node() {
                      .optional(),
              })),
              "Wanted poses. A key without rotation and position is an anchor: there the joint stays as it "
-             "is. So do the first "
-             "and last frame.");
+             "is, and so it does from one anchor to the next. The first and last frame are anchors.");
+  type.code_version = 2;
   type.compute = [](Compute& node) {
     const auto& motion = node.input<Motion>("motion");
     node.output("motion", motion_warp(motion, keys_of(node.params().json("keys")), node.work()));
