@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // More than any graph needs; files that use each other twice, level by level, would grow without end.
-constexpr int most_files = 4096;
+constexpr int most_files = 16384;
 constexpr std::size_t most_levels = 64;
 
 std::string absolute(const std::string& folder, const std::string& path) {
@@ -211,7 +211,8 @@ class Opener {
     Nested nested;
     nested.path = path;
     nested.folder = fs::path(path).parent_path().string();
-    const std::string shown = in_quotes(path.empty() ? "" : fs::path(path).filename().string());
+    const fs::path named(path.ends_with('/') ? path.substr(0, path.size() - 1) : path);
+    const std::string shown = in_quotes(named.filename().string());
     const auto refuse = [&](const char* code, std::string message, std::string hint) {
       nested.why = error(code, std::move(message)).hinting(std::move(hint));
       nested.document.reset();

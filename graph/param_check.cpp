@@ -95,7 +95,9 @@ class Checker {
     add(std::move(diagnostic), value.place, where);
   }
   void wrong_type(const ParamType& type, const Json& value, const std::string& where) {
-    add(error("wrong-type", fmt::format("{} is {}", shown(value), name_of(value.kind())))
+    const bool tells_itself = value.is_null() || value.is_boolean();
+    add(error("wrong-type", tells_itself ? fmt::format("{} stands here", shown(value))
+                                         : fmt::format("{} is {}", shown(value), name_of(value.kind())))
             .hinting("wanted is " + described(type)),
         value, where);
   }

@@ -1,13 +1,17 @@
 #include "graph/validate.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <set>
 #include <tuple>
 
 #include "graph/links.h"
+#include "graph/missing_file.h"
 #include "graph/nested.h"
 
 namespace kinegraph {
@@ -177,6 +181,10 @@ class Validator {
     else if (!fs::is_regular_file(status))
       problem(error("not-a-regular-file", fmt::format("{} is no regular file", in_quotes(path)))
                   .hinting("it is a folder or a device; name a file"));
+    else if (::access(file.c_str(), R_OK) != 0)
+      problem(
+          error("unreadable-file", fmt::format("{} can't be read: {}", in_quotes(path), std::strerror(errno)))
+              .hinting("check its permissions"));
   }
 
   // Whether what the path starts with comes with --var: then it is not the file's to be the same on every
@@ -196,16 +204,8 @@ class Validator {
   }
 
   static std::string file_hint(const fs::path& file) {
-    std::error_code failed;
-    const fs::path folder = file.parent_path();
-    std::vector<std::string> names;
-    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
-      names.push_back(entry->path().filename().string());
-    if (failed)
-      return fmt::format("there is no folder {} either", in_quotes(folder.lexically_normal().string()));
-    std::sort(names.begin(), names.end());
-    const std::string near = nearest(file.filename().string(), names);
-    return near.empty() ? "paths are relative to the graph file" : fmt::format("did you mean \"{}\"?", near);
+    const std::string instead = what_is_instead_of(file);
+    return instead.empty() ? "paths are relative to the graph file" : instead;
   }
 
   void check_inputs(const std::string& name, const Node& node, const NodeType& type) {

@@ -29,7 +29,7 @@ struct ValidateOptions {
 // "missing-file", "broken-graph", "graph-cycle", "too-many-graphs" (of a Graph node's file; see nested.h),
 // "undefined-variable" and the others of substituted(), those of check(), "absolute-path" and
 // "backslash-path" (warnings), those of NodeType::misfits, "leads-outside", "missing-file",
-// "not-a-regular-file", "same-file".
+// "not-a-regular-file", "unreadable-file", "same-file".
 Diagnostics validate(const Document& document, const Registry& registry, const ValidateOptions& options);
 
 // What reading found and what validate() finds, each once, without what only follows from something else, in

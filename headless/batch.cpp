@@ -22,6 +22,7 @@
 #include "headless/html_page.h"
 #include "headless/interruption.h"
 #include "headless/outcome.h"
+#include "headless/report_paths.h"
 #include "headless/sha256.h"
 
 namespace kinegraph {
@@ -79,6 +80,7 @@ class Batch {
     if (!all_.empty()) {
       Session first = session_of(all_.front(), 1);
       program_.terminal.say(first.problems());
+      check_report_paths(arguments_.run, first);
       if (!first.valid()) return exit_code::invalid;
       if (targets_of(first).empty())
         throw UsageError(Diagnostic(
@@ -339,7 +341,7 @@ class Batch {
         program_.terminal.message(fmt::format("{}: {}: {} more items have it; their reports tell it all\n",
                                               program_.terminal.tinted_message("warning", Tint::yellow), what,
                                               items.size() - items_warned_of));
-    std::string text = fmt::format("{} items", items_.size());
+    std::string text = fmt::format("{} item{}", items_.size(), items_.size() == 1 ? "" : "s");
     if (shard_.count > 1) text += fmt::format(" of {}, shard {}/{}", all_.size(), shard_.index, shard_.count);
     text += ":";
     for (const auto& [state, count] : counts())

@@ -23,12 +23,16 @@ Diagnostic misused(const CLI::App& app, const CLI::ParseError& problem) {
     for (const std::string& one : option->get_lnames()) options.push_back("--" + one);
   for (const auto* one : command->get_subcommands({})) commands.push_back(one->get_name());
   const std::size_t colon = message.rfind(": ");
-  const std::string last = colon == message.npos ? "" : message.substr(colon + 2);
-  if (dynamic_cast<const CLI::ExtrasError*>(&problem) && last.starts_with("-")) {
+  std::string last = colon == message.npos ? "" : message.substr(colon + 2);
+  const bool is_extra = dynamic_cast<const CLI::ExtrasError*>(&problem) != nullptr;
+  // Of several words that nobody takes, the option: the others may be its value.
+  if (const std::size_t option = (" " + last).find(" -"); is_extra && option < last.size())
+    last = last.substr(option, last.find(' ', option) - option);
+  if (is_extra && last.starts_with("-")) {
     const std::string near = nearest(last.substr(0, last.find_first_of(" =")), options);
     message = fmt::format("there is no option {}", last);
     if (!near.empty()) hint = fmt::format("did you mean {}? ", near);
-  } else if (dynamic_cast<const CLI::ExtrasError*>(&problem)) {
+  } else if (is_extra) {
     message = fmt::format("{} is one word too many", last);
   } else if (!commands.empty()) {
     message = fmt::format("{} needs a command", name);

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 
 namespace kinegraph {
 
@@ -27,6 +29,11 @@ void end_on_signals() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+void leave(int code) {
+  std::fflush(nullptr);
+  std::_Exit(code);
 }
 
 Interruption::Interruption() {

@@ -8,6 +8,10 @@ namespace kinegraph {
 // From now on a signal ends the program at once with 130 or 143, while no Interruption lives.
 void end_on_signals();
 
+// Ends the program without giving back memory, which can take longer than whoever stopped it should wait. All
+// is written, and nobody else is at work.
+[[noreturn]] void leave(int code);
+
 // While it lives the signals go to its token. At most one at a time.
 class Interruption {
  public:

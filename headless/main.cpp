@@ -17,7 +17,10 @@ int main(int argc, char** argv) {
     Registry registry = all_nodes();
     Program program{registry, terminal, KINEGRAPH_VERSION};
     int code = read_command_line(program, argc, argv)(program);
-    if (!terminal.results_written()) code = exit_code::graver(code, exit_code::cannot_write);
+    if (!terminal.results_written()) {
+      if (code == exit_code::done) terminal.message("kinegraph: standard output can't be written\n");
+      code = exit_code::graver(code, exit_code::cannot_write);
+    }
     return code;
   } catch (const UsageError& problem) {
     terminal.say(problem.diagnostic());

@@ -10,6 +10,7 @@
 
 #include "graph/file/parse_json.h"
 #include "graph/file/read.h"
+#include "graph/missing_file.h"
 #include "graph/nested.h"
 #include "headless/session.h"
 
@@ -18,33 +19,21 @@ namespace kinegraph {
 namespace fs = std::filesystem;
 
 std::string absolute_path(const std::string& path) {
-  return fs::absolute(path).lexically_normal().string();
+  return path.empty() ? "" : fs::absolute(path).lexically_normal().string();
 }
 
 namespace {
-
-// A hint for a path at which nothing is: the name beside it that was meant, if one is near.
-std::string what_is_there(const std::string& path) {
-  const fs::path file = absolute_path(path);
-  std::error_code failed;
-  std::vector<std::string> names;
-  for (fs::directory_iterator entry(file.parent_path(), failed), end; !failed && entry != end;
-       entry.increment(failed))
-    names.push_back(entry->path().filename().string());
-  std::sort(names.begin(), names.end());
-  const std::string near = nearest(file.filename().string(), names);
-  return near.empty() ? "check the path: it starts at the current folder"
-                      : fmt::format("did you mean \"{}\"?", near);
-}
 
 // The bytes of a regular file, or an error that says why there are none.
 std::string bytes_of(const std::string& path, Diagnostics& problems) {
   std::error_code problem;
   auto status = fs::status(path, problem);
   if (!fs::exists(status)) {
-    problems.push_back(error("missing-file", fmt::format("'{}' does not exist", path))
-                           .in_file(path)
-                           .hinting(what_is_there(path)));
+    const std::string instead = path.empty() ? "name a graph file" : what_is_instead_of(absolute_path(path));
+    problems.push_back(
+        error("missing-file", fmt::format("'{}' does not exist", path))
+            .in_file(path)
+            .hinting(instead.empty() ? "check the path: it starts at the current folder" : instead));
     return {};
   }
   if (!fs::is_regular_file(status)) {

@@ -6,6 +6,7 @@
 #include "headless/html_report.h"
 #include "headless/interruption.h"
 #include "headless/messages.h"
+#include "headless/report_paths.h"
 
 namespace kinegraph {
 
@@ -33,9 +34,11 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
   outcome.problems = session.problems();
   program.terminal.say(session.problems());
   if (!session.valid()) {
+    check_report_paths(arguments, session);
     outcome.exit = exit_code::invalid;
   } else {
     auto wanted = targets(session);
+    check_report_paths(arguments, session);
     try {
       std::vector<BeforeAfter> shown;
       auto asked = wanted;
@@ -76,7 +79,9 @@ int run_to_outcome(const Program& program, const RunArguments& arguments, Opened
     outcome.exit = graver(outcome.exit, write_report(program, arguments.html, page));
   }
   int reports = write_reports(outcome, program, arguments, session.opened(), session.options().out);
-  return graver(outcome.exit, reports);
+  const int code = graver(outcome.exit, reports);
+  if (outcome.log.stopped || outcome.log.timed_out) leave(code);
+  return code;
 }
 
 }  // namespace kinegraph

@@ -126,6 +126,9 @@ Target Session::target(const std::string& text) const {
         published != document().publish.outputs.end() && !document().nodes.contains(text))
       return {published->second.front().node, published->second.front().port};
 
+  if (dot != std::string::npos && target.port.empty())
+    throw UsageError(error("unknown-port", fmt::format("\"{}\" names no output after its point", text))
+                         .hinting("write NODE or NODE.PORT"));
   const NodeType* type = nullptr;
   auto planned = plan_.by_name.find(target.node);
   auto written = document().nodes.find(target.node);
@@ -216,7 +219,12 @@ RunLog Session::run(const std::vector<Target>& targets, Progress& progress, Stop
   auto wanted = targets;
   // The report tells the metrics that were measured on the way; they are computed anyway.
   if (!options_.dry_run)
-    for (const auto& metrics : need.metrics) wanted.push_back(metrics);
+    for (const auto& metrics : need.metrics) {
+      const bool is_of_whole_node = std::any_of(targets.begin(), targets.end(), [&](const Target& target) {
+        return target.node == metrics.node && target.port.empty();
+      });
+      if (!is_of_whole_node) wanted.push_back(metrics);  // to be asked for by name, it must be there
+    }
   RunCallbacks callbacks;
   callbacks.progress = [&](const std::string& node, std::string_view state, double fraction) {
     progress.tell(node, state, fraction);

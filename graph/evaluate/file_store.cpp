@@ -17,6 +17,7 @@
 #include <system_error>
 
 #include "graph/evaluate/real_path.h"
+#include "graph/missing_file.h"
 
 namespace kinegraph {
 
@@ -67,17 +68,6 @@ bool is_old_enough(const Identity& identity) {
   return nanoseconds(now) - std::max(identity.modified, identity.changed) >= too_young;
 }
 
-std::string nearest_beside(const std::string& path) {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  const fs::path wanted(path);
-  for (fs::directory_iterator at(wanted.parent_path(), ignored), end; !ignored && at != end;
-       at.increment(ignored))
-    names.push_back(at->path().filename().string());
-  std::sort(names.begin(), names.end());
-  return nearest(wanted.filename().string(), names);
-}
-
 }  // namespace
 
 struct FileStore::State {
@@ -121,9 +111,9 @@ struct FileStore::State {
     const bool visible = allowed(real_path(path));
     if (!visible) outside(shown);
     if (why == ENOENT || why == ENOTDIR) {
-      const auto other = nearest_beside(path);
+      const auto instead = what_is_instead_of(path);
       throw Failure(error("missing-file", "there is no file '" + shown + "'")
-                        .hinting(!other.empty() ? "did you mean '" + other + "'?"
+                        .hinting(!instead.empty() ? instead
                                  : is_named(path)
                                      ? "check the path: one on the command line starts at the current folder"
                                      : "check the path: a graph's own start at its folder, the command "
@@ -208,11 +198,10 @@ FileStore::Content FileStore::read_hashed(const std::string& path, const Reading
   held->bytes.reserve(size);
   Digester digester;
   std::string buffer(std::clamp<std::size_t>(size, 4096, piece), '\0');
-  State::read_all(file.number, shown, reading.check, buffer.data(), buffer.size(),
-                  [&](std::string_view got) {
-                    held->bytes += got;
-                    digester.add(got);
-                  });
+  State::read_all(file.number, shown, reading.check, buffer.data(), buffer.size(), [&](std::string_view got) {
+    held->bytes += got;
+    digester.add(got);
+  });
   Content content;
   content.digest = digester.finish();
   content.bytes = FileBytes(held, &held->bytes);

@@ -16,14 +16,14 @@ using Codes = std::set<std::string_view>;
 
 // Of what is there, whatever may be missing or stand elsewhere.
 bool is_certain(const Diagnostic& problem) {
-  static const Codes certain = {"syntax",         "bad-number",    "not-finite",         "trailing-comma",
-                                "comment",        "bad-utf8",      "bad-character",      "byte-order-mark",
-                                "not-a-graph",    "bad-version",   "newer-schema",       "unknown-type",
-                                "newer-version",  "unknown-param", "unknown-port",       "out-of-range",
-                                "bad-range",      "bad-choice",    "bad-value",          "wrong-length",
-                                "bad-link",       "needs-list",    "one-link",           "type-mismatch",
-                                "not-an-integer", "missing-file",  "not-a-regular-file", "bad-path",
-                                "leads-outside",  "absolute-path", "backslash-path",     "conflict-markers"};
+  static const Codes certain = {
+      "syntax",        "bad-number",      "not-finite",         "trailing-comma", "comment",
+      "bad-utf8",      "bad-character",   "byte-order-mark",    "not-a-graph",    "bad-version",
+      "newer-schema",  "unknown-type",    "newer-version",      "unknown-param",  "unknown-port",
+      "out-of-range",  "bad-range",       "bad-choice",         "bad-value",      "wrong-length",
+      "bad-link",      "needs-list",      "one-link",           "type-mismatch",  "not-an-integer",
+      "missing-file",  "unreadable-file", "not-a-regular-file", "bad-path",       "leads-outside",
+      "absolute-path", "backslash-path",  "conflict-markers"};
   return certain.contains(problem.code);
 }
 bool is_of_form(const Diagnostic& problem) {

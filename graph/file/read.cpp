@@ -29,6 +29,8 @@ std::string_view first_word(std::string_view text) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   std::size_t length = 0;
   while (length < std::min<std::size_t>(text.size(), 24) && is_letter(text[length])) ++length;
+  if (text.starts_with('<'))
+    length = std::min<std::size_t>(text.find_first_of(" >\r\n"), 24);  // <?xml, <html
   return text.substr(0, length);
 }
 
@@ -64,7 +66,9 @@ class Reader {
       add(error("not-a-graph", R"(the file doesn't say "format": "kinegraph")")
               .hinting("is it a graph file?"),
           format ? format->place : top.place);
-      if (!format) return std::move(result_);
+      // Of any other kind of file nothing more can be judged; a slip of the hand is still a graph's.
+      if (!format || !format->is_string() || nearest(format->string(), {"kinegraph"}).empty())
+        return std::move(result_);
     }
     if (read_schema(top)) read_top(top);
     return std::move(result_);
@@ -229,7 +233,7 @@ class Reader {
           wrong_type(value, "\"note\"", "a string", name);
       } else if (key == "params") {
         if (auto* params = object_in(value, "\"params\"", name)) {
-          node.params = std::move(*params);
+          node.params.merge(*params);
           read_params(name, type, node);
         }
       } else if (key == "inputs") {
@@ -255,6 +259,7 @@ class Reader {
               .hinting(type.find_input(key) ? "it is an input: write it under \"inputs\""
                                             : suggestion(key, type.param_names()));
       add(std::move(problem), value.key_place, name);
+      if (type.find_input(key)) node.inputs.try_emplace(key, Inputs{{}, false, value.key_place});  // as meant
       return true;
     });
   }
@@ -268,6 +273,7 @@ class Reader {
                 .hinting(type.find_param(key) ? "it is a parameter: write it under \"params\""
                                               : suggestion(key, type.input_names())),
             value.key_place, name);
+        if (type.find_param(key)) node.params.emplace(key, value);  // as meant
         // The port that was meant isn't open as well: one mistake, one message.
         if (const std::string meant = nearest(key, type.input_names()); !meant.empty())
           node.inputs.try_emplace(meant, Inputs{{}, false, value.key_place});

@@ -89,6 +89,14 @@ std::size_t foreign_blank(std::string_view text) {
   return in_block ? 3 : 0;  // U+2000 to U+200F
 }
 
+// The length of a quote that a word processor made of ", 0: none.
+std::size_t foreign_quote(std::string_view text) {
+  for (const std::string_view quote :
+       {"\xE2\x80\x9C", "\xE2\x80\x9D", "\xE2\x80\x9E", "\xC2\xAB", "\xC2\xBB"})
+    if (text.starts_with(quote)) return quote.size();
+  return 0;
+}
+
 class Cleaner {
  public:
   Cleaner(std::string_view text, Diagnostics& found) : text_(text), found_(found) {}
@@ -123,12 +131,25 @@ class Cleaner {
                .hinting("write a space instead"));
       return replace(length);
     }
+    // One that opened a string closes it.
+    const bool may_be_quote = !in_string_ || in_foreign_;
+    if (const std::size_t length = may_be_quote ? foreign_quote(text_.substr(at_)) : 0; length > 0) {
+      tell(
+          told_character_,
+          error("bad-character", fmt::format("the quote {}", text_.substr(at_, length))).hinting("write \""));
+      in_string_ = in_foreign_ = !in_string_;
+      whole_ += '"';
+      at_ += length;
+      ++column_;
+      return;
+    }
     if (c == '\n') {
       ++line_;
       column_ = 0;
-      in_string_ = told_bad_utf8_ = told_character_ = false;
+      in_string_ = in_foreign_ = told_bad_utf8_ = told_character_ = false;
     } else if (c == '"') {
       in_string_ = !in_string_;
+      in_foreign_ = false;
     } else if (c == '\\' && in_string_ && at_ + 1 < text_.size() &&
                (text_[at_ + 1] == '"' || text_[at_ + 1] == '\\')) {
       whole_ += c;
@@ -160,7 +181,7 @@ class Cleaner {
   std::string whole_;
   std::size_t at_ = 0, next_bad_ = 0;
   int line_ = 1, column_ = 0, told_ = 0, untold_ = 0;
-  bool in_string_ = false, told_bad_utf8_ = false, told_character_ = false;
+  bool in_string_ = false, in_foreign_ = false, told_bad_utf8_ = false, told_character_ = false;
 };
 
 }  // namespace
@@ -174,7 +195,7 @@ bool is_plain(std::string_view text) {
   if (std::any_of(text.begin(), text.end(), is_control) || first_bad_utf8(text) != text.npos) return false;
   for (const char lead : {'\xC2', '\xE2', '\xE3', '\xEF'})
     for (std::size_t at = text.find(lead); at != text.npos; at = text.find(lead, at + 1))
-      if (foreign_blank(text.substr(at)) > 0) return false;
+      if (foreign_blank(text.substr(at)) > 0 || foreign_quote(text.substr(at)) > 0) return false;
   return true;
 }
 

@@ -20,7 +20,10 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& path, const char* doing, int code) {
   throw Failure(error("cannot-write", fmt::format("{}: {}: {}", path, doing, std::strerror(code)))
-                    .hinting(code == ENOSPC ? "make room on the disk" : "may this folder be written to?"));
+                    .hinting(code == ENOSPC || code == EDQUOT    ? "make room on the disk"
+                             : code == ENOENT || code == ENOTDIR ? "there is no such folder"
+                             : code == ENAMETOOLONG              ? "give it a shorter name"
+                                                                 : "may this folder be written to?"));
 }
 
 // The file that is really written: a symbolic link stays, what it names is replaced.

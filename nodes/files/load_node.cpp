@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "graph/compute.h"
 #include "graph/node_type.h"
 #include "nodes/files/file_ports.h"
@@ -32,8 +34,13 @@ void load(Compute& compute) {
   const MotionFile file =
       read_motion_file(params.text("file"), read_options(params), compute.files(), compute.work());
   for (const FileContent& content : file.contents) compute.set_output(content.port, content.value);
+  const auto is_found = [&](const FilePort& port) {
+    return compute.wanted(port.name) && file.find(port.name) != nullptr;
+  };
+  // Whoever wants all there is gets that; of a link to what isn't there its taker says so.
+  if (std::any_of(file_ports().begin(), file_ports().end(), is_found)) return;
   for (const FilePort& port : file_ports())
-    if (compute.wanted(port.name) && !file.find(port.name))
+    if (compute.wanted(port.name))
       throw Failure(error("no-such-content", fmt::format("the file holds {}, no {}", file.ports(), port.name))
                         .hinting("link what the file holds")
                         .at_port(std::string(port.name)));

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "graph/links.h"
+#include "graph/nested.h"
 #include "graph/plan.h"
 #include "graph/validate.h"
 #include "tests/graph/toy_graphs.h"
@@ -32,7 +33,7 @@ std::string linked(const std::string& type, const std::string& port, const std::
                    const std::string& more = {}) {
   return "{\"type\": \"" + type + "\", " + more + "\"inputs\": {\"" + port + "\": " + links + "}}";
 }
-std::string quoted(const std::string& text) {
+std::string as_text(const std::string& text) {
   return "\"" + text + "\"";
 }
 
@@ -58,7 +59,7 @@ class LongChains : public testing::Test {
 
 TEST_F(LongChains, OfDots) {
   const std::string nodes =
-      chain([](int, const std::string& before) { return linked("Dot", "input", quoted(before)); }, "output");
+      chain([](int, const std::string& before) { return linked("Dot", "input", as_text(before)); }, "output");
   EXPECT_EQ(source_of_last(nodes), "a.motion");
   const Document document = judged(nodes).document;
   EXPECT_EQ(type_of_output(document, registry_, {name_of(many - 1), "output", {}}), "Motion");
@@ -69,7 +70,7 @@ TEST_F(LongChains, OfDots) {
 TEST_F(LongChains, OfSwitches) {
   EXPECT_EQ(source_of_last(chain(
                 [](int, const std::string& before) {
-                  return linked("Switch", "inputs", "[" + quoted(before) + ", \"a.motion\"]");
+                  return linked("Switch", "inputs", "[" + as_text(before) + ", \"a.motion\"]");
                 },
                 "output")),
             "a.motion");
@@ -78,7 +79,7 @@ TEST_F(LongChains, OfSwitches) {
 TEST_F(LongChains, OfDisabledNodes) {
   EXPECT_EQ(source_of_last(chain(
                 [](int, const std::string& before) {
-                  return linked("Aged", "motion", quoted(before), R"("version": 3, "enabled": false, )");
+                  return linked("Aged", "motion", as_text(before), R"("version": 3, "enabled": false, )");
                 },
                 "motion")),
             "a.motion");
@@ -87,8 +88,8 @@ TEST_F(LongChains, OfDisabledNodes) {
 TEST_F(LongChains, ACircleOfManyNamesItsEndsAndHowLongItIs) {
   std::string nodes;
   for (int i = 0; i < many; ++i)
-    nodes += (i ? ", " : "") + quoted(name_of(i)) + ": " +
-             linked("Dot", "input", quoted(name_of((i + 1) % many) + ".output"));
+    nodes += (i ? ", " : "") + as_text(name_of(i)) + ": " +
+             linked("Dot", "input", as_text(name_of((i + 1) % many) + ".output"));
   const Diagnostics problems = judged(nodes).problems;
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems.front().code, "cycle");
@@ -101,7 +102,7 @@ TEST_F(LongChains, ManyThatLinkOneAndManyThatOneLinks) {
               links;
   for (int i = 0; i < many; ++i) {
     nodes += ", \"" + name_of(i) + "\": " + linked("Dot", "input", "\"d.output\"");
-    links += (i ? ", " : "") + quoted(name_of(i) + ".output");
+    links += (i ? ", " : "") + as_text(name_of(i) + ".output");
   }
   nodes += ", \"w\": " + linked("Switch", "inputs", "[" + links + "]");
   nodes += R"(, "s": {"type": "QuatStats", "inputs": {"motion": "w.output"}})";
@@ -113,11 +114,40 @@ TEST_F(LongChains, ManyLinksToNodesThatAreNot) {
   std::string nodes = R"("a": {"type": "Load"})";
   for (int i = 0; i < many / 5; ++i)
     nodes += ", \"" + name_of(i) +
-             "\": " + linked("QuatStats", "motion", quoted("o" + std::to_string(i) + ".motion"));
+             "\": " + linked("QuatStats", "motion", as_text("o" + std::to_string(i) + ".motion"));
   const Diagnostics problems = judged(nodes).problems;
   EXPECT_EQ(problems.size(), static_cast<std::size_t>(many / 5));
   EXPECT_EQ(problems.front().hint, "did you mean \"n0\"?");
   EXPECT_EQ(problems.back().hint, "");
+}
+
+// The file is read once, and every node of it stands in the plan for itself.
+TEST_F(LongChains, OfGraphNodesOfOneFile) {
+  constexpr int graphs = 5000;
+  const std::string inner = toys::with_nodes(
+      R"("l": {"type": "Load"}, "m": {"type": "Aged", "version": 3, "inputs": {"motion": "l.motion"}})",
+      R"(, "publish": {"inputs": {"in": "m.motion"}, "outputs": {"out": "m.motion"}})");
+  std::string nodes = R"("a": {"type": "Load"})", before = "a.motion";
+  for (int i = 0; i < graphs; ++i) {
+    nodes += ", \"" + name_of(i) +
+             "\": " + linked("Graph", "in", as_text(before), R"("params": {"file": "inner.kg.json"}, )");
+    before = name_of(i) + ".out";
+  }
+  Document document = read_document(toys::with_nodes(nodes), "g.kg.json", registry_).document;
+  int reads = 0;
+  open_nested(document, registry_,
+              {.path = "/graphs/g.kg.json", .folder = "/graphs", .read = [&](const std::string&) {
+                 ++reads;
+                 return inner;
+               }});
+  EXPECT_EQ(reads, 1);
+  EXPECT_FALSE(has_error(validate(document, registry_, {.file = "g.kg.json", .check_files = false})));
+  Diagnostics problems;
+  const Plan plan = make_plan(document, registry_, {.file = "g.kg.json", .folder = "/graphs"}, problems);
+  EXPECT_EQ(plan.nodes.size(), 1u + 2 * graphs);
+  const auto& last = plan.nodes.at(static_cast<std::size_t>(plan.by_name.at(name_of(graphs - 1) + "/m")));
+  const Source& source = last.inputs.at("motion").front();
+  EXPECT_EQ(plan.nodes.at(static_cast<std::size_t>(source.node)).name, name_of(graphs - 2) + "/m");
 }
 
 }  // namespace

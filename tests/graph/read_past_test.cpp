@@ -206,6 +206,44 @@ TEST(ReadPastMistakes, BlanksOfOtherProgramsAreNamed) {
   }
 }
 
+TEST(ReadPastMistakes, QuotesOfWordProcessorsAreReadAsMeant) {
+  const ReadResult result = judged(between_mistakes(
+      "\u201Ca\u201D: {\u201Etype\u201D: \"Load\", \"note\": \"a \u201Cslow\u201D walk\"},"));
+  EXPECT_EQ(toys::in_short(result.problems),
+            (std::vector<std::string>{"2:15 unknown-type", "3:1 bad-character", "4:34 unknown-param",
+                                      "4:54 out-of-range"}));
+  EXPECT_EQ(result.document.nodes.at("a").note, "a \u201Cslow\u201D walk");
+}
+
+// A slip of the hand in "format" is no reason to stop; a file of another kind is.
+TEST(ReadPastMistakes, OfAFileOfAnotherKindOnlyThatIsTold) {
+  using Told = std::vector<std::string>;
+  EXPECT_EQ(toys::in_short(judged(R"({"format": "kinegraph-report", "schema": 1, "exit": 0})").problems),
+            (Told{"1:12 not-a-graph"}));
+  EXPECT_EQ(toys::in_short(judged(R"({"format": "kinegrph", "schema": 1, "nodse": {}})").problems),
+            (Told{"1:12 not-a-graph", "1:37 unknown-key"}));
+  EXPECT_EQ(toys::in_short(judged("<?xml version=\"1.0\"?>\n<a/>").problems), (Told{"1:1 not-a-graph"}));
+}
+
+// What stands in the wrong place isn't missing as well.
+TEST(ReadPastMistakes, OneMistakeOneMessage) {
+  using Told = std::vector<std::string>;
+  const auto told = [](const std::string& node) {
+    return toys::in_short(judged(between_mistakes(node)).problems);
+  };
+  const Told others = {"2:15 unknown-type", "4:34 unknown-param", "4:54 out-of-range"};
+  const auto with = [&](std::string one) {
+    Told all = others;
+    all.insert(all.begin() + 1, std::move(one));
+    return all;
+  };
+  EXPECT_EQ(told(R"("s": {"type": "QuatStats", "params": {"motion": "b.motion"}},)"),
+            with("3:39 unknown-param"));
+  EXPECT_EQ(told(R"("s": {"type": "Load", "inputs": {"file": "x.bvh"}},)"), with("3:34 unknown-port"));
+  EXPECT_EQ(told(R"("s": {"type": "Switch", "inputs": {"input": ["b.motion"]}},)"),
+            with("3:36 unknown-port"));
+}
+
 TEST(ReadPastMistakes, Utf16IsToldOnceAndReadPast) {
   for (const bool little : {true, false})
     for (const std::u16string mark : {u"\uFEFF", u""}) {

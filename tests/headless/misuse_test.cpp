@@ -1,4 +1,6 @@
 // Slips on the command line: each says what is wrong, where, and what to do, and leaves files as they were.
+#include <filesystem>
+
 #include "program.h"
 
 namespace kinegraph {
@@ -24,6 +26,41 @@ const Slip slips[] = {
      {"fmt", "--chek", "g.kg.json"},
      2,
      {"bad-option", "--chek", "did you mean --check?", "kinegraph fmt --help"}},
+    {"OptionMisspelledBeforeItsValue",
+     {"run", "g.kg.json", "--thread", "2"},
+     2,
+     {"there is no option --thread ", "did you mean --threads?"}},
+    {"ReportOntoTheGraph",
+     {"run", "g.kg.json", "--report", "./g.kg.json"},
+     2,
+     {"writes-onto-input: --report ./g.kg.json", "is a graph of this run", "a file of its own"}},
+    {"JunitOntoTheClip",
+     {"run", "g.kg.json", "--junit", "walk.bvh"},
+     2,
+     {"writes-onto-input: --junit walk.bvh", "is read by walk"}},
+    {"PageOntoTheExport",
+     {"run", "g.kg.json", "--html", "o.bvh"},
+     2,
+     {"writes-onto-input: --html o.bvh", "is written by out"}},
+    {"ReportsIntoOneFile",
+     {"run", "g.kg.json", "--report", "r", "--junit", "r"},
+     2,
+     {"writes-onto-input: --junit r", "is what --report names"}},
+    {"ReportOfABatchOntoItsGraph",
+     {"batch", "g.kg.json", "--each", "walk.file=walk.*", "--out", "b", "--report", "g.kg.json"},
+     2,
+     {"writes-onto-input: --report g.kg.json"}},
+    {"PointWithoutAnOutput", {"run", "g.kg.json", "--target", "walk."}, 2, {"\"walk.\" names no output"}},
+    {"NoNameOfAGraph", {"run", ""}, 3, {"missing-file", "name a graph file"}},
+    {"NoNameOfAFile", {"info", ""}, 3, {"error: "}},
+    {"LinkThatLeadsNowhere",
+     {"run", "dangling"},
+     3,
+     {"dangling: error: missing-file", "is a link to \"gone\""}},
+    {"ClipThatIsALinkThatLeadsNowhere",
+     {"run", "g.kg.json", "--set", "walk.file=dangling"},
+     1,
+     {"missing-file: walk.file", "is a link to \"gone\""}},
     {"OptionOfAnotherCommand",
      {"validate", "g.kg.json", "--frames", "9"},
      2,
@@ -114,6 +151,7 @@ TEST_P(Misuse, IsToldAndHarmsNothing) {
   ASSERT_EQ(run({"run", "make.kg.json"}).exit, 0);
   write("g.kg.json", graph(R"("walk": {"type": "Load", "params": {"file": "walk.bvh"}},
     "out": {"type": "Export", "params": {"file": "o.bvh"}, "inputs": {"motion": "walk.motion"}})"));
+  std::filesystem::create_symlink("gone", path("dangling"));
   write("column.csv", "walk.flie,walk.fps\nwalk.bvh,30\n");
   write("value.csv", "walk.file,walk.fps\n\nwalk.bvh,fast\n");
   write("short.csv", "walk.file,walk.fps\nwalk.bvh,30\nwalk.bvh\n");

@@ -59,6 +59,19 @@ TEST_F(Run, TargetRunsOnlyWhatIsNamed) {
   EXPECT_FALSE(exists("walk.bvh"));
 }
 
+// Of a Load all that its file holds.
+TEST_F(Run, TargetOfAWholeNodeTakesWhatItGives) {
+  write("make.kg.json", walk_and_export());
+  ASSERT_EQ(run({"run", "make.kg.json"}).exit, 0);
+  write("g.kg.json", graph(R"("clip": {"type": "Load", "params": {"file": "walk.bvh"}})"));
+  const Ran ran = run({"run", "g.kg.json", "--target", "clip", "--report", "r.json"});
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(read_json("r.json")["nodes"]["clip"]["state"], "done");
+  const Ran points = run({"run", "g.kg.json", "--target", "clip.points"});
+  EXPECT_EQ(points.exit, 1);
+  EXPECT_THAT(points.err, HasSubstr("the file holds motion, no points"));
+}
+
 TEST_F(Run, UnknownNamesOnTheCommandLineAreWrongUsageAndNameTheNearest) {
   write("g.kg.json", walk_and_export());
   struct Slip {
