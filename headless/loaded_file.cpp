@@ -20,6 +20,7 @@ Opened graph_of_file(const std::string& file) {
 
 Diagnostic as_typed(Diagnostic problem, const std::string& path, const std::string& typed) {
   if (problem.file == path) problem.file = typed;
+  if (path.empty()) return problem;  // no file was named
   for (std::size_t at = 0; (at = problem.message.find(path, at)) != std::string::npos; at += typed.size())
     problem.message.replace(at, path.size(), typed);
   return problem;
