@@ -94,7 +94,7 @@ Canvas draw_metrics(const Metrics& metrics, const std::string& title) {
     shown.resize(shown.size() - hidden);
     canvas.text({x, top + 12}, group.name + " by joint", {.size = 12, .color = theme::ink, .bold = true});
     if (hidden)
-      canvas.text({x + column, top + 12}, fmt::format("largest {} of {}", most, most + hidden),
+      canvas.text({x + column, top + 12}, fmt::format("{} of {}", most, most + hidden),
                   {.size = 10, .color = theme::faint, .anchor = Anchor::end});
     top += 20;
     for (const Metric* metric : shown) {

@@ -99,8 +99,10 @@ Canvas draw_stats(const Stats& stats, const std::string& title) {
   Canvas canvas(1080, 100);
   double y = theme::draw_title(
       canvas, title,
-      fmt::format("{} space · {} mean · {} frames · {:g} fps · {} joints · leg length {:.3f} m", stats.space,
-                  stats.mean_kind, stats.frames, stats.fps, shown.size(), stats.leg_length));
+      fmt::format("{} · {} frames · {:g} fps · {} joints · leg length {:.3f} m",
+                  stats.space == "euler" ? "each Euler angle by itself"
+                                         : fmt::format("{} space · {} mean", stats.space, stats.mean_kind),
+                  stats.frames, stats.fps, shown.size(), stats.leg_length));
   bool posed = stats.parents.size() == stats.joints.size() && stats.offsets.size() == stats.joints.size() &&
                stats.rests.size() == stats.joints.size() && !stats.joints.empty();
   const double left = theme::margin, column = 400;

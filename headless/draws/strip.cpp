@@ -234,8 +234,9 @@ void draw_row(Canvas& canvas, const Row& row, const StripLayout& layout, const C
 
 std::string facts_of(const Motion& motion) {
   double seconds = static_cast<double>(motion.frames()) / motion.fps();
-  std::string text = fmt::format("{} frames · {:g} fps · {:.2f} s · {} joints", motion.frames(),
-                                 std::round(motion.fps() * 1000) / 1000, seconds, motion.joints());
+  std::string text = fmt::format("{} frame{} · {:g} fps · {:.2f} s · {} joints", motion.frames(),
+                                 motion.frames() == 1 ? "" : "s", std::round(motion.fps() * 1000) / 1000,
+                                 seconds, motion.joints());
   if (motion.frames() < 2 || motion.joints() == 0) return text;
   auto world = world_motion(motion);
   int body = Figure(motion.skeleton()).body();

@@ -44,7 +44,7 @@ Canvas draw_warp(const Warp& warp, const std::string& title) {
                 warp.dofs.empty() ? "" : fmt::format(" · {} paths, one a DOF", warp.dofs.size()));
   Canvas canvas(1000, 720);
   double y = theme::draw_title(canvas, title, facts);
-  const double left = theme::margin - 8, width = canvas.width() - 2 * left;
+  const double left = theme::margin - 4, width = canvas.width() - 2 * left;
   bool energy = warp.energy.size() > 1;
 
   Chart path{"Which frame is shown when",
