@@ -133,7 +133,8 @@ TEST_F(Values, PicturesOfRealClips) {
                            "odd/derived/frames_zero.bvh", "fair/jumping_jacks.bvh"}) {
     Ran ran = run({"picture", mocap(clip), "-o", "p.svg"});
     EXPECT_EQ(ran.exit, 0) << clip << ran.err;
-    EXPECT_THAT(read("p.svg"), HasSubstr("frames")) << clip;
+    EXPECT_THAT(read("p.svg"), HasSubstr(std::string(clip) == "odd/one_frame.bvh" ? "1 frame ·" : "frames"))
+        << clip;
   }
 }
 
