@@ -104,6 +104,9 @@ CurvesPanel::CurvesPanel(Session& session, Evaluation& evaluation, Playback& pla
   connect(&session_, &Session::meaning_changed, this, &CurvesPanel::find_wanted);
   connect(&evaluation_, &Evaluation::values_changed, this, &CurvesPanel::take_values);
   connect(&viewer_.motions(), &ShownMotions::made, this, &CurvesPanel::take_values);
+  connect(&evaluation_, &Evaluation::status_changed, this, [this] {
+    if (visible_ && pages_->currentIndex() == words_page) take_values();
+  });
   set_theme(*theme_);
   find_wanted();
 }

@@ -33,6 +33,11 @@ Timeline::Timeline(Session& session, Evaluation& evaluation, Playback& playback,
   connect(&session_, &Session::meaning_changed, this, &Timeline::find_wanted);
   connect(&evaluation_, &Evaluation::values_changed, this, &Timeline::take_values);
   connect(&viewer_, &Viewer::shown_changed, this, &Timeline::take_values);
+  // Why there is nothing to play yet may have changed.
+  connect(&evaluation_, &Evaluation::status_changed, this, [this](const QString& node) {
+    for (const Viewer::Shown& one : viewer_.shown())
+      if (!one.motion && one.target.node == node.toStdString()) return take_values();
+  });
   connect(&viewer_.motions(), &ShownMotions::made, this, &Timeline::take_values);
   connect(&playback_, &Playback::state_changed, this, &Timeline::update_state);
   connect(&playback_, &Playback::clip_changed, this, &Timeline::update_moment);

@@ -36,8 +36,8 @@ const char* const every_port =
   "out": {"type": "Export", "params": {"file": "all.bvh"}, "inputs": {"motion": "edit.motion", "character": "rubber.character",
     "points": "sparks.points", "metrics": "figures.metrics"}})";
 
-const char* const states = R"("long_walk": {"type": "Gait", "params": {"seconds": 400}},
-  "long_sneak": {"type": "Gait", "params": {"seconds": 380, "gait": "sneak"}},
+const char* const states = R"("long_walk": {"type": "Gait", "params": {"seconds": 150}},
+  "long_sneak": {"type": "Gait", "params": {"seconds": 140, "gait": "sneak"}},
   "running": {"type": "TimeWarp", "inputs": {"source": "long_walk.motion", "reference": "long_sneak.motion"}},
   "waiting": {"type": "UnwarpTime", "inputs": {"motion": "running.warped", "warp": "running.warp"}},
   "gone": {"type": "Load", "params": {"file": "clips/nowhere.bvh"}},
@@ -71,7 +71,7 @@ void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
     shot.take_canvas("port_types" + end);
   }
   {
-    Shot shot(theme, into, {1680, 1400});
+    Shot shot(theme, into, {1680, 1560});
     shot.text(states);
     shot.select("done");
     shot.wait(800);
@@ -82,7 +82,7 @@ void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
       QApplication::processEvents(QEventLoop::AllEvents, 20);
       const NodeStatus* running = shot.window.evaluation().status("running");
       const NodeStatus* waiting = shot.window.evaluation().status("waiting");
-      const bool well_under_way = running && running->progress > 0.2;
+      const bool well_under_way = running && running->progress > 0.15;
       if ((well_under_way || clock.elapsed() > 20000) && running &&
           running->state == NodeStatus::State::running && waiting &&
           waiting->state == NodeStatus::State::waiting)
@@ -91,7 +91,8 @@ void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
     shot.take_widget("node_states" + end, &shot.canvas());
     shot.window.resize(1280, 800);
     shot.window.action("reset_layout")->trigger();
-    shot.canvas().frame_all();
+    QApplication::processEvents();
+    shot.canvas().show_rect(shot.canvas().scene().bounds_of({"long_sneak", "gone", "running", "waiting"}));
     shot.wait(0);
     shot.take("running" + end);
     shot.window.evaluation().cancel();
