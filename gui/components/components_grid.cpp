@@ -238,8 +238,12 @@ void ComponentsGrid::paintEvent(QPaintEvent* event) {
     }
     painter.setPen(theme_->text);
     const QRect words(whole.left() + 9, part.bottom() + 2, whole.width() - 18, caption);
+    // As many joints as fit with all their letters; the tool tip names the rest.
+    QString joints = figure.short_joints;
+    while (fontMetrics().horizontalAdvance(joints) > words.width() && joints.contains(", "))
+      joints.truncate(joints.lastIndexOf(", "));
     painter.drawText(words, Qt::AlignVCenter | Qt::AlignLeft,
-                     fontMetrics().elidedText(figure.short_joints, Qt::ElideRight, words.width()));
+                     fontMetrics().elidedText(joints, Qt::ElideRight, words.width()));
     paint_signal(painter, figure,
                  QRectF(whole.left() + 9, words.bottom() + 1, whole.width() - 18, signal_height - 6));
     if (hasFocus() && i == current_) {
