@@ -310,8 +310,7 @@ int main(int argc, char** argv) {
   const QString what = argv[2];
   QDir().mkpath(into.path());
   if (what == "scaled" && argc > 3) {
-    // With QT_SCALE_FACTOR or QT_FONT_DPI in the environment: the same windows with more pixels or larger
-    // words.
+    // With QT_SCALE_FACTOR in the environment: the same windows with more pixels.
     for (const Theme* theme : {&dark_theme(), &light_theme()}) {
       const QString end = (theme->dark ? "_" : "_light_") + QString(argv[3]);
       shots::Shot shot(*theme, into, {1280, 800});
