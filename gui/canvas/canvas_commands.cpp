@@ -18,6 +18,8 @@ namespace kinegraph {
 
 namespace {
 
+constexpr double margin_of_new = 8;  // pixels
+
 // As long as nothing is typed: families in the order of a motion's way through a graph.
 void in_order_of_families(std::vector<std::string>& types, const Registry& registry) {
   static const std::string_view way[] = {"files", "motion",  "time",  "style", "components",
@@ -49,10 +51,20 @@ std::string GraphCanvas::add(const std::string& type, QPointF graph, std::option
   if (!port) graph = free_place(graph);
   std::string name;
   const bool done = session_.perform([&](const Document& d, const Registry& r) {
-    return add_new_node(d, r, {type, graph, port, params}, &name);
+    return keeping_places(d, r, scene_, [&](const Document& placed, const Registry& registry) {
+      return add_new_node(placed, registry, {type, graph, port, params}, &name);
+    });
   });
   if (!done) return {};
   session_.select({name}, name);
+  // Its place may be out of sight where the one that was asked for is taken.
+  const QRectF seen = QRectF(rect()).adjusted(margin_of_new, margin_of_new, -margin_of_new, -margin_of_new);
+  if (const SceneNode* node = scene_.node(name)) {
+    const QRectF box(to_view(node->rect.topLeft()), to_view(node->rect.bottomRight()));
+    const QPointF by(std::max(0.0, seen.left() - box.left()) + std::min(0.0, seen.right() - box.right()),
+                     std::max(0.0, seen.top() - box.top()) + std::min(0.0, seen.bottom() - box.bottom()));
+    if (!by.isNull() && seen.height() > box.height() && seen.width() > box.width()) pan_by(by);
+  }
   return name;
 }
 
@@ -106,21 +118,46 @@ void GraphCanvas::link_by_search() {
   const Document& document = session_.document();
   const NodeType* type = known_type(session_.registry(), document.nodes.at(from));
   if (!type) return;
-  std::vector<std::pair<PortAt, PortAt>> links;
-  std::vector<SearchBox::Entry> entries;
+  struct Found {
+    int rank;
+    SearchBox::Entry entry;
+    std::pair<PortAt, PortAt> link;
+  };
+  std::vector<Found> found;
   for (const OutputPort& output : type->outputs)
     for (const auto& [name, other] : document.nodes) {
       const NodeType* to = name == from ? nullptr : known_type(session_.registry(), other);
       for (std::size_t i = 0; to && i < to->inputs.size(); ++i) {
         const PortAt a{from, output.name, false}, b{name, to->inputs[i].name, true};
         if (!objection(document, session_.registry(), a, b).isEmpty()) continue;
-        links.push_back({a, b});
-        entries.push_back({QString::fromStdString(name + "." + b.port),
-                           QString::fromStdString(output.name + " →"),
-                           QString::fromStdString(to->inputs[i].help),
-                           {}});
+        const auto inputs = other.inputs.find(b.port);
+        const bool linked = inputs != other.inputs.end() && !inputs->second.links.empty();
+        const Link link{from, output.name, {}};
+        if (linked && std::count(inputs->second.links.begin(), inputs->second.links.end(), link)) continue;
+        const bool replaces = linked && !to->inputs[i].list;
+        // Of ports that match alike the shorter line comes first: the one that needs a link.
+        QString line = QString::fromStdString(name + "." + b.port);
+        if (replaces)
+          line += tr(" · instead of its link");
+        else if (linked || to->inputs[i].optional)
+          line += tr(" · may stay open");
+        const int rank = replaces ? 2 : linked || to->inputs[i].optional ? 1 : 0;
+        found.push_back({rank,
+                         {line,
+                          QString::fromStdString(output.name + " →"),
+                          QString::fromStdString(to->inputs[i].help),
+                          {}},
+                         {a, b}});
       }
     }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& x, const Found& y) { return x.rank < y.rank; });
+  std::vector<std::pair<PortAt, PortAt>> links;
+  std::vector<SearchBox::Entry> entries;
+  for (Found& one : found) {
+    links.push_back(std::move(one.link));
+    entries.push_back(std::move(one.entry));
+  }
   search_->open(to_view(node->rect.topRight() + QPointF(10, 0)).toPoint(), tr("Link to"), std::move(entries),
                 [this, links](int chosen) {
                   const auto& [a, b] = links[std::size_t(chosen)];
@@ -172,19 +209,24 @@ void GraphCanvas::paste() {
   std::vector<std::string> names;
   const auto snapped = [](double x) { return int(std::lround(x / GraphScene::step)) * GraphScene::step; };
   session_.perform([&](const Document& d, const Registry& r) {
-    names.clear();
-    return kinegraph::paste(d, r, read.document, snapped(by.x()), snapped(by.y()), &names);
+    return keeping_places(d, r, scene_, [&](const Document& placed, const Registry& registry) {
+      names.clear();
+      return kinegraph::paste(placed, registry, read.document, snapped(by.x()), snapped(by.y()), &names);
+    });
   });
   session_.select({names.begin(), names.end()}, names.empty() ? "" : names.front());
 }
 
 void GraphCanvas::duplicate() {
   if (session_.selected().empty()) return;
-  const Document part = copied(session_.document(), session_.registry(), selection());
+  const std::vector<std::string> chosen = selection();
   std::vector<std::string> names;
   session_.perform([&](const Document& d, const Registry& r) {
-    names.clear();
-    return kinegraph::paste(d, r, part, 40, 40, &names);
+    return keeping_places(d, r, scene_, [&](const Document& placed, const Registry& registry) {
+      names.clear();
+      // Copies lie beside what they were made of, wherever that got its place.
+      return kinegraph::paste(placed, registry, copied(placed, registry, chosen), 40, 40, &names);
+    });
   });
   session_.select({names.begin(), names.end()}, names.empty() ? "" : names.front());
 }
@@ -264,10 +306,12 @@ void GraphCanvas::arrange() {
       session_.selected().size() > 1 ? session_.selected() : std::set<std::string>();
   const auto positions = arranged(scene_, nodes);
   if (positions.empty()) return;
-  session_.perform([&](const Document& d, const Registry&) {
-    Edit edit = move_nodes(d, positions);
-    edit.title = "Arrange";
-    return edit;
+  session_.perform([&](const Document& d, const Registry& r) {
+    return keeping_places(d, r, scene_, [&](const Document& placed, const Registry&) {
+      Edit edit = move_nodes(placed, positions);
+      edit.title = "Arrange";
+      return edit;
+    });
   });
   if (nodes.empty()) frame_all();
 }
@@ -354,7 +398,10 @@ void GraphCanvas::nudge(int dx, int dy) {
   for (const std::string& name : session_.selected())
     if (const SceneNode* node = scene_.node(name))
       positions[name] = node->rect.topLeft() + QPointF(dx, dy) * GraphScene::step;
-  session_.perform([&](const Document& d, const Registry&) { return move_nodes(d, positions); });
+  session_.perform([&](const Document& d, const Registry& r) {
+    return keeping_places(
+        d, r, scene_, [&](const Document& placed, const Registry&) { return move_nodes(placed, positions); });
+  });
 }
 
 }  // namespace kinegraph

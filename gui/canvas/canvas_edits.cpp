@@ -55,6 +55,26 @@ Edit one_after_another(const Document& document, const Registry& registry, const
   return all;
 }
 
+Edit keeping_places(const Document& document, const Registry& registry, const GraphScene& scene,
+                    const EditStep& step) {
+  std::map<std::string, QPointF> shown;
+  for (const auto& [name, node] : document.nodes) {
+    const auto entry = document.ui.nodes.find(name);
+    const SceneNode* seen = scene.node(name);
+    if (seen && (entry == document.ui.nodes.end() || !point_of(&entry->second, "pos")))
+      shown[name] = seen->rect.topLeft();
+  }
+  if (shown.empty()) return step(document, registry);
+  const Edit places = move_nodes(document, shown);
+  Document draft = document;
+  apply(draft, places);
+  const Edit own = step(draft, registry);
+  if (own.empty()) return own;
+  Edit both = combined(places, own);
+  both.title = own.title;
+  return both;
+}
+
 Edit move_nodes(const Document& document, const std::map<std::string, QPointF>& positions) {
   Edit edit{positions.size() == 1 ? "Move " + positions.begin()->first
                                   : "Move " + std::to_string(positions.size()) + " nodes",

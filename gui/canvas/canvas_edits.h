@@ -19,6 +19,9 @@ using EditStep = std::function<Edit(const Document&, const Registry&)>;
 Edit one_after_another(const Document&, const Registry&, const std::string& title,
                        const std::vector<EditStep>& steps);
 
+// The same of one step, and before it nodes that have no saved place get the one where they are shown: they
+// would be arranged anew around what is moved or added. Nothing where the step is nothing.
+Edit keeping_places(const Document&, const Registry&, const GraphScene& scene, const EditStep& step);
 Edit move_nodes(const Document&, const std::map<std::string, QPointF>& positions);
 Edit set_color(const Document&, const std::set<std::string>& nodes, const QString& color);  // "" = none
 Edit add_note(const Document&, QPointF at, const QString& text, std::string* name);

@@ -117,7 +117,9 @@ class Move : public CanvasGesture {
           return insert_on_link(d, r, *nodes_.begin(), wire->to, wire->to_port, wire->index);
         });
       }
-      return one_after_another(document, registry, title, steps);
+      return keeping_places(document, registry, canvas_.scene(), [&](const Document& d, const Registry& r) {
+        return one_after_another(d, r, title, steps);
+      });
     });
     canvas_.rebuild();
   }

@@ -11,7 +11,7 @@ namespace kinegraph {
 namespace {
 
 constexpr int steps_a_doubling = 4;
-constexpr int smallest_step = -12, largest_step = 6;  // zoom 1/8 to 2.8
+constexpr int smallest_step = -20, largest_step = 6;  // zoom 1/32 to 2.8: "all" is all, however far apart
 constexpr int rest_after_ms = 120;
 constexpr int states_ms = 30;  // nodes' states may come in so much later, many at once
 

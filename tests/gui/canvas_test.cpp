@@ -175,6 +175,100 @@ TEST(EditorCanvas, ZoomKeepsWhatIsUnderThePointer) {
   EXPECT_NEAR(editor.canvas().to_graph(at).y(), graph.y(), 1e-6);
 }
 
+TEST(EditorCanvas, LinkToOffersWhatIsNeededFirst) {
+  Editor editor;
+  editor.session().open_text(R"({"format": "kinegraph", "schema": 1, "nodes": {
+    "style": {"type": "QuatStats"}, "transfer": {"type": "StyleTransfer"}}})",
+                             {});
+  editor.session().select({"style"}, "style");
+  editor.canvas().setFocus();
+  for (const char* port : {"style", "own"}) {
+    editor.key(Qt::Key_L);
+    editor.type("transfer");
+    editor.key(Qt::Key_Return);
+    EXPECT_EQ(editor.links("transfer", port), 1u) << port;
+  }
+  // Both are linked: nothing is left.
+  const std::string before = editor.session().text();
+  editor.key(Qt::Key_L);
+  editor.type("transfer");
+  editor.key(Qt::Key_Return);
+  EXPECT_EQ(editor.session().text(), before);
+}
+
+TEST(EditorCanvas, ANewNodeIsSeenWhole) {
+  Editor editor;
+  for (int i = 0; i < 5; ++i) {
+    const std::string node = editor.add("gait");
+    const QRectF box = editor.canvas().scene().node(node)->rect;
+    EXPECT_TRUE(editor.canvas().rect().contains(editor.canvas().to_view(box.topLeft()).toPoint())) << i;
+    EXPECT_TRUE(editor.canvas().rect().contains(editor.canvas().to_view(box.bottomRight()).toPoint())) << i;
+  }
+}
+
+TEST(EditorCanvas, ASearchGoesOnWhenANoticeComesUp) {
+  Editor editor;
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_Tab);
+  editor.type("ga");
+  emit editor.session().refused("Something happened meanwhile", {});
+  Editor::settle();
+  ASSERT_TRUE(editor.window.findChild<QWidget*>("notice_bar")->isVisible());
+  editor.type("it");
+  editor.key(Qt::Key_Return);
+  EXPECT_EQ(editor.document().nodes.size(), 1u);
+}
+
+TEST(EditorCanvas, NodesThatWereNeverPlacedStayWhereTheyAreSeen) {
+  const std::string text = R"({"format": "kinegraph", "schema": 1, "nodes": {
+    "walk": {"type": "Gait"}, "soft": {"type": "Filter", "inputs": {"motion": "walk.motion"}},
+    "feet": {"type": "Footskate", "inputs": {"motion": "soft.motion"}}}})";
+  Editor editor;
+  editor.session().open_text(text, {});
+  const auto places = [&] {
+    std::map<std::string, QPointF> found;
+    for (const char* name : {"walk", "soft"})
+      found[name] = editor.canvas().scene().node(name)->rect.topLeft();
+    return found;
+  };
+  const auto seen = places();
+  const std::string before = editor.session().text();
+  const auto stays = [&](const char* what) {
+    for (const auto& [name, at] : places()) {
+      EXPECT_NEAR(at.x(), seen.at(name).x(), 5) << name << " after " << what;
+      EXPECT_NEAR(at.y(), seen.at(name).y(), 5) << name << " after " << what;
+    }
+    EXPECT_EQ(editor.session().history().position(), 1u) << what;
+    editor.canvas().setFocus();
+    editor.key(Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_EQ(editor.session().text(), before) << what;
+  };
+  editor.drag_node("feet", editor.canvas().scene().node("feet")->rect.topLeft() + QPointF(40, 160));
+  stays("a drag");
+  editor.session().select({"feet"}, "feet");
+  editor.key(Qt::Key_Down, Qt::ControlModifier);
+  stays("a step by keys");
+  editor.add("metrics");
+  stays("a new node");
+  editor.session().select({"feet"}, "feet");
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_D, Qt::ControlModifier);
+  stays("a copy");
+}
+
+TEST(EditorCanvas, AllIsShownHoweverFarApart) {
+  Editor editor;
+  editor.session().open_text(R"({"format": "kinegraph", "schema": 1, "nodes": {
+    "here": {"type": "Gait"}, "there": {"type": "Gait"}},
+    "ui": {"nodes": {"here": {"pos": [0, 0]}, "there": {"pos": [12000, 9000]}}}})",
+                             {});
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_A);
+  for (const SceneNode& node : editor.canvas().scene().nodes())
+    EXPECT_TRUE(editor.canvas().rect().contains(editor.canvas().to_view(node.rect.center()).toPoint()))
+        << node.name;
+}
+
 TEST(EditorCanvas, EverythingUndoneIsTheFileAsItWas) {
   Editor editor;
   editor.session().open(QString::fromStdString(source_folder()) + "/graphs/style_transfer.kg.json");
