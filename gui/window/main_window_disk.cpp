@@ -15,6 +15,8 @@
 namespace kinegraph {
 namespace {
 
+constexpr int gone_after_ms = 300;
+
 std::string bytes_of(const QString& path) {
   QFile file(path);
   if (!file.open(QIODevice::ReadOnly)) return {};
@@ -88,6 +90,10 @@ void MainWindow::watch_other_files() {
 void MainWindow::file_changed_on_disk(const QString& path) {
   // A file that is written aside and renamed is a new one to the watcher.
   QTimer::singleShot(200, this, &MainWindow::watch_files);
+  // It was gone, and is there again.
+  if (QFileInfo(path).isDir() && QFileInfo(session_.path()).absolutePath() == path &&
+      QFile::exists(session_.path()) && !watcher_.files().contains(session_.path()))
+    file_changed_on_disk(session_.path());
   if (session_.files_inside().contains(path) || QFileInfo(path).isDir()) {
     inside_changed_ = true;
     reload_.start();
@@ -95,6 +101,18 @@ void MainWindow::file_changed_on_disk(const QString& path) {
   }
   if (path != session_.path()) {
     reload_.start();  // a clip: what depends on it is evaluated again
+    return;
+  }
+  if (!QFile::exists(path)) {
+    // Who writes it anew may be between the old and the new one.
+    QTimer::singleShot(gone_after_ms, this, [this, path] {
+      if (path != session_.path()) return;
+      if (QFile::exists(path)) return file_changed_on_disk(path);
+      notice_->say(tr("%1 is not on the disk any more. What is open here is kept; save it to have the file "
+                      "again.")
+                       .arg(session_.title()),
+                   {{tr("Save it again"), [this] { save(); }}});
+    });
     return;
   }
   const std::string now = bytes_of(path);

@@ -156,8 +156,11 @@ bool MainWindow::save_as() {
 }
 
 bool MainWindow::may_discard() {
-  if (!session_.is_modified() || session_.is_read_only() || !options_.ask) return true;
-  QMessageBox box(QMessageBox::Question, tr("Kinegraph"), tr("Save the changes to %1?").arg(session_.title()),
+  const bool gone = !session_.path().isEmpty() && !QFile::exists(session_.path());
+  if ((!session_.is_modified() && !gone) || session_.is_read_only() || !options_.ask) return true;
+  QMessageBox box(QMessageBox::Question, tr("Kinegraph"),
+                  gone ? tr("Save %1 again? It is not on the disk any more.").arg(session_.title())
+                       : tr("Save the changes to %1?").arg(session_.title()),
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
   box.setInformativeText(tr("Without saving they are lost."));
   box.setDefaultButton(QMessageBox::Save);

@@ -42,7 +42,8 @@ void MainWindow::close_page(int page) {
 
 bool MainWindow::may_discard_all() {
   for (int i = 0; i < session_.pages(); ++i) {
-    if (!session_.is_page_modified(i)) continue;
+    const QString path = session_.page_path(i);
+    if (!session_.is_page_modified(i) && (path.isEmpty() || QFile::exists(path))) continue;
     session_.show_page(i);
     if (!may_discard()) return false;
   }

@@ -362,6 +362,42 @@ TEST(EditorOnDisk, SavedElsewhereAGraphStillFindsItsClipsAndSoDoesWhatIsUndone) 
   EXPECT_FALSE(editor.session().is_modified());
 }
 
+TEST(EditorOnDisk, AGraphWhoseFileIsDeletedIsSavedAgain) {
+  OnDisk editor;
+  const std::string text = editor.session().text();
+  ASSERT_TRUE(QFile::remove(editor.path));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return editor.notice()->isVisible(); }, 5000));
+  EXPECT_FALSE(editor.session().is_modified());
+  ASSERT_TRUE(editor.answer("Save it again"));
+  QFile file(editor.path);
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  EXPECT_EQ(file.readAll().toStdString(), text);
+}
+
+TEST(EditorOnDisk, ClosingAGraphWhoseFileIsDeletedAsks) {
+  Editor editor(true);
+  const QString path = editor.folder.filePath("main.kg.json");
+  ASSERT_TRUE(QFile::copy(graphs + "feet.kg.json", path));
+  ASSERT_TRUE(editor.window.open(path));
+  ASSERT_TRUE(QFile::remove(path));
+  editor.when_asked([](QWidget& dialog) { Editor::keys_to(dialog, {}, Qt::Key_Return); });
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_Q, Qt::ControlModifier);
+  EXPECT_TRUE(QFile::exists(path));
+  EXPECT_FALSE(editor.window.isVisible());
+}
+
+TEST(EditorOnDisk, AFileThatIsDeletedAndWrittenAnewIsMerged) {
+  OnDisk editor;
+  Document theirs = editor.document();
+  theirs.nodes.begin()->second.note = "theirs";
+  ASSERT_TRUE(QFile::remove(editor.path));
+  QTest::qWait(600);
+  editor.rewrite(write_document(theirs, editor.registry));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return editor.answer("Merge it in"); }, 5000));
+  EXPECT_EQ(editor.document().nodes.begin()->second.note, "theirs");
+}
+
 TEST(EditorOnDisk, AnUnknownTypeStandsAmongTheProblems) {
   OnDisk editor;
   std::string text = editor.session().text();
