@@ -208,7 +208,8 @@ void GraphCanvas::focusOutEvent(QFocusEvent*) {
 
 void GraphCanvas::edit_text(QRectF graph, const QString& text, std::function<void(const QString&)> done) {
   delete text_edit_;
-  auto* edit = text_edit_ = new QPlainTextEdit(this);
+  auto* edit = new QPlainTextEdit(this);
+  text_edit_ = edit;
   edit->setObjectName("canvas_text");
   edit->setAccessibleName(tr("Text"));
   edit->setPlainText(text);
@@ -267,9 +268,6 @@ void GraphCanvas::edit_text(QRectF graph, const QString& text, std::function<voi
   new Watch(edit, graph.height() < 40, [this, done = std::move(done), edit](const QString& written) {
     if (text_edit_ == edit) text_edit_ = nullptr;
     done(written);
-  });
-  connect(edit, &QObject::destroyed, this, [this, edit] {
-    if (text_edit_ == edit) text_edit_ = nullptr;
   });
 }
 

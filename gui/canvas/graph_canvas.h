@@ -1,6 +1,7 @@
 // The node canvas: shows a session's graph and edits it by mouse and keyboard. Pans and zooms by drawing
 // pictures of nodes; evaluates nothing.
 #pragma once
+#include <QPointer>
 #include <QTimer>
 #include <QWidget>
 #include <memory>
@@ -154,7 +155,7 @@ class GraphCanvas : public QWidget {
   QPointF hint_at_;
   bool hint_refused_ = false;
   SearchBox* search_;
-  QPlainTextEdit* text_edit_ = nullptr;
+  QPointer<QPlainTextEdit> text_edit_;
 };
 
 }  // namespace kinegraph

@@ -108,7 +108,8 @@ void MainWindow::file_changed_on_disk(const QString& path) {
     QTimer::singleShot(gone_after_ms, this, [this, path] {
       if (path != session_.path()) return;
       if (QFile::exists(path)) return file_changed_on_disk(path);
-      notice_->say(tr("%1 is not on the disk any more. What is open here is kept; save it to have the file "
+      notice_->say(NoticeBar::Kind::warning,
+                   tr("%1 is not on the disk any more. What is open here is kept; save it to have the file "
                       "again.")
                        .arg(session_.title()),
                    {{tr("Save it again"), [this] { save(); }}});
