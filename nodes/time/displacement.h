@@ -1,5 +1,5 @@
-// The smooth curves of motion warping: through given values at given frames, nowhere a jump in value or slope,
-// nor in curvature but where they come to rest.
+// The smooth curves of motion warping: through given values at given frames, nowhere a jump in value or
+// slope, nor in curvature but where they come to rest.
 #pragma once
 #include <cstddef>
 #include <map>
