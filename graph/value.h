@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,6 +16,10 @@ namespace kinegraph {
 // Little-endian binary, the same bytes on every machine.
 class Encoder {
  public:
+  Encoder() = default;
+  // Long lists are written in pieces, before each of which `ask` is called; it may throw. `expected` bytes are made
+  // room for.
+  Encoder(std::function<void()> ask, std::size_t expected);
   void u8(std::uint8_t value);
   void u32(std::uint32_t value);
   void u64(std::uint64_t value);
@@ -29,13 +34,21 @@ class Encoder {
   std::string take() { return std::move(out_); }
 
  private:
+  template <class T>
+  void put(std::span<const T> values);
   std::string out_;
+  std::function<void()> ask_;
 };
 
 // Reads what Encoder wrote; throws Failure ("damaged-entry") when the bytes end early or a length is impossible.
 class Decoder {
  public:
-  explicit Decoder(std::string_view bytes) : rest_(bytes) {}
+  explicit Decoder(std::string_view bytes, std::function<void()> ask = {})
+      : rest_(bytes), ask_(std::move(ask)) {}
+  // For whoever makes something large of what was read; long lists do it themselves, as Encoder's.
+  void ask() const {
+    if (ask_) ask_();
+  }
   std::uint8_t u8();
   std::uint32_t u32();
   std::uint64_t u64();
@@ -52,7 +65,10 @@ class Decoder {
 
  private:
   std::string_view take(std::size_t count);
+  template <class T>
+  std::vector<T> numbers();
   std::string_view rest_;
+  std::function<void()> ask_;
 };
 
 struct NonFinite {

@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view magic = "kinecach";
 constexpr std::uint32_t format_version = 1;
 constexpr std::size_t header_size = magic.size() + 4 + 16;  // magic, format version, checksum
-constexpr std::size_t piece = std::size_t{4} << 20;
+constexpr std::size_t piece = std::size_t{1} << 20;
 constexpr int fast_level = 1;
 
 void ask(const std::function<bool()>& give_up) {
@@ -61,28 +61,32 @@ Diagnostic decode_note(Decoder& in) {
   return note;
 }
 
-std::string compressed(std::string_view raw, const std::function<bool()>& give_up) {
+// Memory is made room for and only touched piece by piece: filling a hundred megabytes at once takes as long
+// as whoever asks to stop may have to wait.
+void append_compressed(std::string& out, std::string_view raw, const std::function<bool()>& give_up) {
   std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
   if (!context) throw std::bad_alloc();
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, fast_level);
   ZSTD_CCtx_setPledgedSrcSize(context.get(), raw.size());
-  std::string out(ZSTD_compressBound(raw.size()), '\0');
-  ZSTD_outBuffer to{out.data(), out.size(), 0};
+  const std::size_t room = ZSTD_compressBound(piece);
+  out.reserve(out.size() + ZSTD_compressBound(raw.size()) + room);
   std::size_t begin = 0;
   do {
-    ask(give_up);
     const std::size_t end = std::min(raw.size(), begin + piece);
     ZSTD_inBuffer from{raw.data() + begin, end - begin, 0};
     const bool last = end == raw.size();
     std::size_t rest = 0;
     do {
+      ask(give_up);
+      const std::size_t written = out.size();
+      out.resize(written + room);
+      ZSTD_outBuffer to{out.data() + written, room, 0};
       rest = ZSTD_compressStream2(context.get(), &to, &from, last ? ZSTD_e_end : ZSTD_e_continue);
       if (ZSTD_isError(rest)) throw damaged(ZSTD_getErrorName(rest));
+      out.resize(written + to.pos);
     } while (last ? rest != 0 : from.pos < from.size);
     begin = end;
   } while (begin < raw.size());
-  out.resize(to.pos);
-  return out;
 }
 
 std::string decompressed(std::string_view packed, std::uint64_t raw_size,
@@ -90,20 +94,23 @@ std::string decompressed(std::string_view packed, std::uint64_t raw_size,
   if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != raw_size) throw damaged("wrong length");
   std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
   if (!context) throw std::bad_alloc();
-  std::string raw(raw_size, '\0');
+  std::string raw;
+  raw.reserve(raw_size);
   ZSTD_inBuffer from{packed.data(), packed.size(), 0};
   std::size_t done = 0;
   while (true) {
     ask(give_up);
-    const std::size_t end = std::min<std::size_t>(raw.size(), done + piece);
+    const std::size_t end = std::min<std::size_t>(raw_size, done + piece);
+    raw.resize(end);
     ZSTD_outBuffer to{raw.data() + done, end - done, 0};
     const std::size_t rest = ZSTD_decompressStream(context.get(), &to, &from);
     if (ZSTD_isError(rest)) throw damaged(ZSTD_getErrorName(rest));
     done += to.pos;
     if (rest == 0) break;
-    if (to.pos == 0 && (from.pos == from.size || done == raw.size())) throw damaged("ends early");
+    if (to.pos == 0 && (from.pos == from.size || done == raw_size)) throw damaged("ends early");
   }
-  if (done != raw.size() || from.pos != from.size) throw damaged("wrong length");
+  if (done != raw_size || from.pos != from.size) throw damaged("wrong length");
+  raw.resize(done);
   return raw;
 }
 
@@ -134,6 +141,7 @@ std::string_view checked_body(std::string_view bytes, const std::function<bool()
 }  // namespace
 
 std::string encode_entry(const Key& key, const Cached& cached, const std::function<bool()>& give_up) {
+  const auto asking = [&] { ask(give_up); };
   Encoder body;
   encode(body, key);
   body.text(cached.value ? cached.value->type() : std::string_view{});
@@ -141,13 +149,15 @@ std::string encode_entry(const Key& key, const Cached& cached, const std::functi
   for (const auto& note : cached.notes) encode(body, note);
   std::string raw;
   if (cached.value) {
-    Encoder out;
+    Encoder out(asking, cached.value->bytes());
     cached.value->encode(out);
     raw = out.take();
   }
   body.u64(raw.size());
-  std::string whole = body.take() + compressed(raw, give_up);
-  return header(checksum(whole, give_up)) + whole;
+  std::string whole = std::string(header_size, '\0') + body.take();
+  append_compressed(whole, raw, give_up);
+  whole.replace(0, header_size, header(checksum(std::string_view(whole).substr(header_size), give_up)));
+  return whole;
 }
 
 Cached decode_entry(const Key& key, std::string_view bytes, const Registry& registry,
@@ -165,7 +175,7 @@ Cached decode_entry(const Key& key, std::string_view bytes, const Registry& regi
   const auto* value_type = registry.find_value(type);
   if (!value_type || !value_type->decode) throw damaged("of an unknown type");
   const std::string raw = decompressed(in.rest(), raw_size, give_up);
-  Decoder value(raw);
+  Decoder value(raw, [&] { ask(give_up); });
   cached.value = value_type->decode(value);
   if (!cached.value || cached.value->type() != type || !value.at_end()) throw damaged("does not decode");
   return cached;

@@ -254,7 +254,7 @@ GltfContents read_fbx(std::string_view bytes, const ReadOptions& options, FileAc
                     .hinting("bake the animation, a key a frame, when the FBX is written"));
   ReadOptions in_metres = options;
   in_metres.unit = Json("m");
-  return read_gltf(out.glb(), "/clip.glb", in_metres, files, work, origin);
+  return read_gltf(out.glb(work), "/clip.glb", in_metres, files, work, origin);
 }
 
 }  // namespace kinegraph

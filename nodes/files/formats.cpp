@@ -144,14 +144,14 @@ GltfOut gltf_to_write(const FileToWrite& file, Work& work) {
 }
 
 EncodedFile write_glb_file(const FileToWrite& file, Work& work) {
-  return {gltf_to_write(file, work).glb(), {}};
+  return {gltf_to_write(file, work).glb(work), {}};
 }
 
 EncodedFile write_gltf_file(const FileToWrite& file, Work& work) {
   GltfOut out = gltf_to_write(file, work);
   const std::string name = gltf_buffer_name(file.path);
   std::string text = out.text(name);
-  return {std::move(text), {{name, out.binary()}}};
+  return {std::move(text), {{name, std::move(out).binary()}}};
 }
 
 EncodedFile write_csv_file(const FileToWrite& file, Work& work) {

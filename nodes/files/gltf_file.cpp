@@ -118,17 +118,25 @@ std::string_view gltf_json_of(std::string_view bytes) {
   return bytes.substr(20, length);
 }
 
-std::string glb_of(std::string json, std::string binary) {
+std::string glb_of(std::string json, std::string_view binary, Work& work) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
-  binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  const std::size_t length = (binary.size() + 3) / 4 * 4,
+                    whole = 20 + json.size() + (length > 0 ? 8 + length : 0);
   std::string out = "glTF";
+  out.reserve(whole);
   put_u32(out, 2);
-  put_u32(out, 12 + 8 + json.size() + (binary.empty() ? 0 : 8 + binary.size()));
+  put_u32(out, whole);
   put_u32(out, json.size());
   out += "JSON" + json;
   if (binary.empty()) return out;
-  put_u32(out, binary.size());
-  out += std::string("BIN\0", 4) + binary;
+  put_u32(out, length);
+  out += std::string_view("BIN\0", 4);
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  for (std::size_t at = 0; at < binary.size(); at += piece) {
+    work.check();
+    out += binary.substr(at, piece);
+  }
+  out.resize(whole, '\0');
   return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "graph/compute.h"
 #include "graph/json.h"
+#include "graph/work.h"
 #include "nodes/motion/character.h"
 
 namespace tinygltf {
@@ -32,7 +33,7 @@ std::vector<std::string> gltf_companions(std::string_view bytes, const std::stri
 // The JSON of a GLB or of a text file. Throws Failure ("bad-gltf").
 std::string_view gltf_json_of(std::string_view bytes);
 // A GLB of a JSON text and the bytes of buffer 0.
-std::string glb_of(std::string json, std::string binary);
+std::string glb_of(std::string json, std::string_view binary, Work& work);
 
 // All numbers of an accessor, `components` an element: normalised where it says so, sparse entries put in,
 // strides followed. Throws Failure ("bad-gltf") naming the accessor where it leads out of its buffer or has

@@ -258,9 +258,9 @@ void GltfOut::set_buffer(const std::string& uri) {
   root.object()["buffers"] = Json::Array{std::move(buffer)};
 }
 
-std::string GltfOut::glb() {
+std::string GltfOut::glb(Work& work) {
   set_buffer("");
-  return glb_of(compact(root, true), binary_);
+  return glb_of(compact(root, true), binary_, work);
 }
 
 std::string GltfOut::text(const std::string& buffer_name) {

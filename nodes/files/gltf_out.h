@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "graph/json.h"
+#include "graph/work.h"
 #include "nodes/motion/character.h"
 
 namespace kinegraph {
@@ -29,10 +30,11 @@ class GltfOut {
   int add_indices(std::span<const std::uint32_t> values);
   int add_joints(std::span<const std::uint32_t> values);  // four a vertex, as 16 bits
 
-  std::string glb();
+  std::string glb(Work& work);
   // As text; its buffer goes beside it under `buffer_name`.
   std::string text(const std::string& buffer_name);
-  const std::string& binary() const { return binary_; }
+  const std::string& binary() const& { return binary_; }
+  std::string binary() && { return std::move(binary_); }
 
  private:
   int add_view(std::string_view bytes, GltfTarget target);

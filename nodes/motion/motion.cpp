@@ -73,6 +73,17 @@ Motion::Motion(std::shared_ptr<const Skeleton> skeleton, std::shared_ptr<const S
   }
 }
 
+void Motion::replace_frames(std::size_t frames, std::vector<double> data) {
+  frames_ = frames;
+  data_ = std::move(data);
+  std::size_t at = 4 * skeleton_->joints.size() * frames;
+  for (std::ptrdiff_t& track : translation_at_) {
+    if (track < 0) continue;
+    track = static_cast<std::ptrdiff_t>(at);
+    at += 3 * frames;
+  }
+}
+
 QuatTrack Motion::rotation(int joint) {
   return quat_at<QuatTrack>(data_, 4 * frames_ * static_cast<std::size_t>(joint), frames_);
 }
@@ -144,21 +155,8 @@ ValuePtr decode_motion(Decoder& in) {
     damaged("a motion has flags for other joints than it has");
   bool fits = tracks == 0 ? data.empty() : data.size() % tracks == 0 && data.size() / tracks == frames;
   if (!fits || (tracks == 0 && frames > 0)) damaged("a motion has other frames than it says");
-  auto motion = std::make_shared<Motion>(skeleton, source, fps, frames, translates);
-  auto from = data.begin();
-  auto take = [&](std::span<double> series) {
-    std::copy_n(from, series.size(), series.begin());
-    from += static_cast<std::ptrdiff_t>(series.size());
-  };
-  for (int j = 0; j < motion->joints(); ++j) {
-    auto q = motion->rotation(j);
-    for (auto series : {q.x, q.y, q.z, q.w}) take(series);
-  }
-  for (int j = 0; j < motion->joints(); ++j) {
-    if (!motion->translates(j)) continue;
-    auto p = motion->translation(j);
-    for (auto series : {p.x, p.y, p.z}) take(series);
-  }
+  auto motion = std::make_shared<Motion>(skeleton, source, fps, 0, translates);
+  motion->replace_frames(frames, std::move(data));
   return motion;
 }
 

@@ -110,6 +110,10 @@ class Motion final : public Value {
   std::optional<NonFinite> non_finite() const override;
 
  private:
+  friend ValuePtr decode_motion(Decoder& in);
+  // Takes the numbers of as many frames in place of its own: rotations of all joints, then translations.
+  void replace_frames(std::size_t frames, std::vector<double> data);
+
   std::shared_ptr<const Skeleton> skeleton_ = std::make_shared<Skeleton>();
   std::shared_ptr<const SourceFacts> source_ = std::make_shared<SourceFacts>();
   double fps_ = 120;

@@ -31,7 +31,7 @@ std::shared_ptr<const Character> character_of(const MotionFile& file) {
 
 GltfContents again(GltfOut out, Alone& work) {
   PlainFiles files;
-  const std::string bytes = out.glb();
+  const std::string bytes = out.glb(work);
   // $KINEGRAPH_KEEP_GLB: a folder that what is built here goes to, for Khronos' validator.
   if (const char* keep = std::getenv("KINEGRAPH_KEEP_GLB")) {
     static int number = 0;
