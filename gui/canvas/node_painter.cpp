@@ -18,6 +18,13 @@ QFont font_of(double pixels, bool bold = false) {
   return font;
 }
 
+// Letters may stand narrower, but for so much, before some are left out.
+QFont fitted(QFont font, const QString& text, double width) {
+  const double wanted = QFontMetricsF(font).horizontalAdvance(text);
+  if (wanted > width) font.setStretch(std::max(80, int(99 * width / wanted)));
+  return font;
+}
+
 void draw_text(QPainter& p, const QRectF& box, Qt::Alignment align, const QString& text) {
   p.drawText(box, int(align | Qt::AlignVCenter | Qt::TextSingleLine),
              QFontMetricsF(p.font()).elidedText(text, Qt::ElideRight, box.width()));
@@ -277,7 +284,7 @@ void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, No
   const double below = with_still ? 0.42 * box.height() : 0;
   const double room = box.height() - top_edge - below;
   const bool with_type = zoom >= 0.34 && room >= largest * 1.3 + type_line;
-  // A name of two sizes only: what fits in neither loses letters.
+  // Names are of two sizes only.
   const auto beside_dot = [&](double pixels) {
     const double high = pixels * 1.3 + (with_type ? type_line : 0);
     const double top = with_still ? top_edge + 3 * pixel : top_edge + std::max(0.0, room - high) / 2;
@@ -288,15 +295,16 @@ void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, No
   if (wide(pixels) > beside_dot(pixels).second) pixels = std::min(pixels, smallest);
   const auto [top, across] = beside_dot(pixels);
   const double line = pixels * 1.3;
-  p.setFont(font_of(pixels, true));
+  p.setFont(fitted(font_of(pixels, true), name, across));
   p.setPen(ink);
   draw_text(p, QRectF(left, top, across, line), Qt::AlignLeft, name);
   double bottom = top + line;
   if (with_type) {
-    p.setFont(font_of(type_pixels));
+    const QString type = QString::fromStdString(node.type);
+    const QRectF words(left, bottom, box.width() - left - 5 * pixel, type_line);
+    p.setFont(fitted(font_of(type_pixels), type, words.width()));
     p.setPen(theme.faint_text);
-    draw_text(p, QRectF(left, bottom, box.width() - left - 5 * pixel, type_line), Qt::AlignLeft,
-              QString::fromStdString(node.type));
+    draw_text(p, words, Qt::AlignLeft, type);
     bottom += type_line;
   }
   if (with_still) {

@@ -1,5 +1,6 @@
 #include "gui/look/ask_file.h"
 
+#include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHeaderView>
@@ -44,6 +45,9 @@ QString chosen(QFileDialog& dialog, const QString& start, const QString& filter)
     dialog.setLabelText(QFileDialog::FileName, QObject::tr("Folder:"));
     for (const char* kind : {"fileTypeLabel", "fileTypeCombo"})
       if (auto* part = dialog.findChild<QWidget*>(kind)) part->hide();
+    // Without a row for kinds of files the buttons stand side by side.
+    if (auto* buttons = dialog.findChild<QDialogButtonBox*>("buttonBox"))
+      buttons->setOrientation(Qt::Horizontal);
   }
   return dialog.exec() && !dialog.selectedFiles().isEmpty() ? dialog.selectedFiles().first() : QString();
 }

@@ -31,10 +31,14 @@ const char* const every_port =
   "parts": {"type": "ICA", "params": {"components": 3}, "inputs": {"motions": ["walk.motion", "strut.motion"]}},
   "edit": {"type": "ComponentEdit", "inputs": {"components": "parts.components"}},
   "sparks": {"type": "Burst"},
-  "rubber": {"type": "RubberJoints", "inputs": {"motion": "strut.motion"}},
   "figures": {"type": "Metrics", "inputs": {"motion": "feet.motion", "contacts": "feet.contacts"}},
-  "out": {"type": "Export", "params": {"file": "all.bvh"}, "inputs": {"motion": "edit.motion", "character": "rubber.character",
-    "points": "sparks.points", "metrics": "figures.metrics"}})";
+  "judge": {"type": "Check", "params": {"rules": ["skate < 0.05"]}, "inputs": {"metrics": "figures.metrics"}},
+  "cloud": {"type": "Export", "params": {"file": "cloud.csv"}, "inputs": {"points": "sparks.points"}},
+  "out": {"type": "Export", "params": {"file": "edited.bvh"}, "inputs": {"motion": "edit.motion"}},
+  "body": {"type": "Load", "params": {"file": "characters/mannequin.glb"}},
+  "skin": {"type": "RubberJoints", "inputs": {"motion": "body.motion", "character": "body.character"}},
+  "rubbery": {"type": "Export", "params": {"file": "rubber.glb"}, "inputs": {"motion": "skin.motion",
+    "character": "skin.character"}})";
 
 const char* const states = R"("long_walk": {"type": "Gait", "params": {"seconds": 150}},
   "long_sneak": {"type": "Gait", "params": {"seconds": 140, "gait": "sneak"}},
