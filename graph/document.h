@@ -1,5 +1,6 @@
-// A graph as it is saved: nodes, links, parameters, publishing, layout. Pure data; meaning is checked by validate.h and
-// given by plan.h. Everything in it can be addressed as a Unit, and undo, diff and merge all speak in units.
+// A graph as it is saved: nodes, links, parameters, publishing, layout. Pure data; meaning is checked by
+// validate.h and given by plan.h. Everything in it can be addressed as a Unit, and undo, diff and merge all
+// speak in units.
 #pragma once
 #include <map>
 #include <memory>
@@ -19,7 +20,7 @@ struct Link {
   Place place;
   bool operator==(const Link& other) const { return node == other.node && port == other.port; }
 };
-std::string to_text(const Link& link);  // "node.port"
+std::string to_text(const Link& link);                      // "node.port"
 std::optional<Link> link_from_text(std::string_view text);  // nothing when it isn't NAME.NAME
 
 // The links of one input port. `list`: stands as a list in the file, as it must on a port that takes several.
@@ -40,12 +41,15 @@ struct Node {
   std::map<std::string, Json, std::less<>> params;  // as stored: only those that differ from the default
   std::map<std::string, Inputs, std::less<>> inputs;
   std::map<std::string, Json, std::less<>> extras;  // keys starting "x-"
-  // Set where the node's type is unknown or its version newer: the node's whole object as read. The fields above hold
-  // what could be understood of it (type, inputs), for drawing and dependency; this is what is written back.
+  // Set where the node's type is unknown or its version newer: the node's whole object as read. The fields
+  // above hold what could be understood of it (type, inputs), for drawing and dependency; this is what is
+  // written back.
   std::optional<Json> missing;
-  bool older = false;  // a known type's older version, read without migrating: kept in `missing` too, for writing only
-  Place place;         // of its name
-  std::shared_ptr<const Nested> nested;  // of a Graph node: its file, once open_nested() has read it; never saved
+  bool older =
+      false;  // a known type's older version, read without migrating: kept in `missing` too, for writing only
+  Place place;  // of its name
+  std::shared_ptr<const Nested>
+      nested;  // of a Graph node: its file, once open_nested() has read it; never saved
 };
 
 // Names -> "node.param" or "node.port" targets. One target is written as a string, several as a list.
@@ -71,7 +75,7 @@ struct Document {
   Publish publish;
   Ui ui;
   std::map<std::string, Json, std::less<>> extras;
-  bool read_only = false;  // of a newer schema; whole text kept below, nothing else is filled in
+  bool read_only = false;  // of a newer schema; whole text kept below, what is understood filled in
   std::string newer_text;
 };
 inline constexpr int current_schema = 1;
@@ -82,17 +86,24 @@ bool is_extra_key(std::string_view key);   // starts with "x-"
 // The smallest thing an edit, a diff or a merge speaks of.
 struct Unit {
   enum class Kind {
-    node,            // a whole node: value as in the file
-    missing_node,    // the same for a missing node, which is absent as a `node`: its value is kept as read
-    node_type,       // type and version together: {"type", "version"}
-    node_enabled, node_note,
-    node_param,      // name = node, key = param
-    node_input,      // name = node, key = port
+    node,          // a whole node: value as in the file
+    missing_node,  // the same for a missing node, which is absent as a `node`: its value is kept as read
+    node_type,     // type and version together: {"type", "version"}
+    node_enabled,
+    node_note,
+    node_param,  // name = node, key = param
+    node_input,  // name = node, key = port
     node_extra,
-    variable,        // name
-    publish_param, publish_input, publish_output, publish_extra,
-    ui_node, ui_frame, ui_note, ui_extra,
-    extra,           // of the document
+    variable,  // name
+    publish_param,
+    publish_input,
+    publish_output,
+    publish_extra,
+    ui_node,
+    ui_frame,
+    ui_note,
+    ui_extra,
+    extra,  // of the document
   };
   Kind kind;
   std::string name;
@@ -101,14 +112,15 @@ struct Unit {
 };
 std::string to_text(const Unit& unit);  // "transfer.root", "publish.params.source"
 
-// The unit's value in the file's form, or nothing where it is absent (a parameter at its default, an open port).
+// The unit's value in the file's form, or nothing where it is absent (a parameter at its default, an open
+// port).
 std::optional<Json> get(const Document& document, const Unit& unit);
-// Sets or, given nothing, removes it. Throws std::logic_error for a unit of a node that isn't there. On a missing node
-// the units of its parts read and change the object it is kept as.
+// Sets or, given nothing, removes it. Throws std::logic_error for a unit of a node that isn't there. On a
+// missing node the units of its parts read and change the object it is kept as.
 void set(Document& document, const Unit& unit, std::optional<Json> value);
 
-// A node's object in the file's form, and back. They do no checking: what doesn't have the file's form is left out, and
-// read.h has complained of it.
+// A node's object in the file's form, and back. They do no checking: what doesn't have the file's form is
+// left out, and read.h has complained of it.
 Json to_json(const Node& node);
 Node node_from_json(const Json& json);
 Node missing_node_from_json(Json json);  // `missing` set, and what can be understood of it

@@ -70,7 +70,11 @@ class Reader {
       if (!format || !format->is_string() || nearest(format->string(), {"kinegraph"}).empty())
         return std::move(result_);
     }
-    if (read_schema(top)) read_top(top);
+    const bool known = read_schema(top);
+    const std::size_t told = result_.problems.size();
+    read_top(top);
+    // What a newer program writes can't be judged; what is understood of it can be looked at.
+    if (!known) result_.problems.resize(told);
     return std::move(result_);
   }
 
@@ -106,7 +110,7 @@ class Reader {
     return false;
   }
 
-  // False: of a newer schema, or none that can be read.
+  // False: of a newer schema.
   bool read_schema(const Json& top) {
     const Json* schema = top.find("schema");
     if (!schema) {

@@ -104,7 +104,7 @@ void GraphCanvas::find_node() {
                        QString::fromStdString(node.note),
                        {QString::fromStdString(node.type), QString::fromStdString(node.note)}});
   }
-  search_->open({(width() - 320) / 2, 40}, tr("Find a node"), std::move(entries), [this, names](int chosen) {
+  search_->open({(width() - 340) / 2, 40}, tr("Find a node"), std::move(entries), [this, names](int chosen) {
     const std::string& name = names[std::size_t(chosen)];
     session_.select({name}, name);
     make_visible(name);

@@ -156,10 +156,8 @@ void GraphCanvas::paint_nodes(QPainter& p, const QRectF& seen) {
 void GraphCanvas::paint_mini_map(QPainter& p) {
   const QRectF map = mini_map_rect();
   if (map.isNull()) return;
-  QColor back = theme_->panel;
-  back.setAlpha(225);
   p.setPen(QPen(theme_->line, 1));
-  p.setBrush(back);
+  p.setBrush(theme_->panel);
   p.drawRoundedRect(map, 5, 5);
   const QRectF inside = map.adjusted(6, 6, -6, -6), all = scene_.bounds();
   const double scale = std::min(inside.width() / all.width(), inside.height() / all.height());

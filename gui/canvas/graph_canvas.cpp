@@ -222,7 +222,7 @@ void GraphCanvas::edit_text(QRectF graph, const QString& text, std::function<voi
   }
   const int words = std::clamp(edit->fontMetrics().horizontalAdvance(text) + 48, 110, 160);
   edit->setGeometry(
-      QRect(place.topLeft(), QSize(std::max(words, place.width()), std::max(30, place.height()))));
+      QRect(place.topLeft(), QSize(std::max(words, place.width()), std::max(36, place.height()))));
   edit->setToolTip(tr("Ctrl+Enter or a click beside it keeps the text, Escape leaves it as it was"));
   edit->show();
   edit->setFocus();

@@ -15,6 +15,7 @@ double round_step(double length, int wanted) {
 }
 
 QString plain_number(double value) {
+  if (value < 0) return QChar(0x2212) + plain_number(-value);
   return std::abs(value) >= 1e7 ? QString::number(value, 'g', 3)
          : std::abs(value) >= 1000
              ? QLocale(QLocale::English).toString(static_cast<qlonglong>(std::llround(value)))

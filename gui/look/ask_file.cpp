@@ -6,6 +6,8 @@
 #include <QHeaderView>
 #include <QLineEdit>
 #include <QListView>
+#include <QMessageBox>
+#include <QPushButton>
 #include <QSplitter>
 #include <QTreeView>
 
@@ -41,6 +43,8 @@ QString chosen(QFileDialog& dialog, const QString& start, const QString& filter)
   }
   if (auto* places = dialog.findChild<QListView*>("sidebar")) places->setIconSize({16, 16});
   dialog.setSizeGripEnabled(false);
+  dialog.setLabelText(QFileDialog::LookIn, QObject::tr("Folder:"));
+  dialog.setLabelText(QFileDialog::FileType, QObject::tr("Kinds:"));
   if (folder) {
     dialog.setLabelText(QFileDialog::FileName, QObject::tr("Folder:"));
     for (const char* kind : {"fileTypeLabel", "fileTypeCombo"})
@@ -50,6 +54,16 @@ QString chosen(QFileDialog& dialog, const QString& start, const QString& filter)
       buttons->setOrientation(Qt::Horizontal);
   }
   return dialog.exec() && !dialog.selectedFiles().isEmpty() ? dialog.selectedFiles().first() : QString();
+}
+
+bool may_replace(QWidget* parent, const QString& path) {
+  QMessageBox box(QMessageBox::Warning, QObject::tr("Kinegraph"),
+                  QObject::tr("Replace %1?").arg(QFileInfo(path).fileName()),
+                  QMessageBox::Ok | QMessageBox::Cancel, parent);
+  box.setInformativeText(QObject::tr("There is a file of that name. What it holds will be lost."));
+  box.button(QMessageBox::Ok)->setText(QObject::tr("Replace"));
+  box.setDefaultButton(QMessageBox::Cancel);
+  return box.exec() == QMessageBox::Ok;
 }
 
 }  // namespace
@@ -65,7 +79,13 @@ QString ask_where_to_save(QWidget* parent, const QString& title, const QString& 
   QFileDialog dialog(parent, title);
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setFileMode(QFileDialog::AnyFile);
-  return chosen(dialog, start, filter);
+  dialog.setOption(
+      QFileDialog::DontConfirmOverwrite);  // it is asked here, in the words of the other questions
+  for (QString from = start;;) {
+    const QString path = chosen(dialog, from, filter);
+    if (path.isEmpty() || !QFileInfo::exists(path) || may_replace(parent, path)) return path;
+    from = path;
+  }
 }
 
 QString ask_for_folder(QWidget* parent, const QString& title, const QString& start) {

@@ -164,7 +164,7 @@ QToolButton:hover { background: %2; }
 QToolButton:checked { background: %6; }
 QPushButton { background: %2; border: 1px solid %3; border-radius: 4px; padding: 5px 14px; }
 QPushButton:hover { border-color: %5; }
-QPushButton:default { border-color: %5; }
+QPushButton:default { background: %6; border-color: %6; }
 QPushButton:disabled { color: %7; }
 QLineEdit, QPlainTextEdit, QComboBox { background: %8; border: 1px solid %3; border-radius: 4px; padding: 3px 6px; selection-background-color: %6; }
 QComboBox::drop-down { border: none; width: 18px; }
@@ -176,7 +176,7 @@ QToolButton#row_menu { padding: 2px 0px; color: %7; }
 QToolButton#row_menu:hover { color: %4; }
 QFileDialog QToolButton { padding: 3px; }
 QSplitter::handle { background: transparent; image: none; }
-QPushButton:default:disabled { border-color: %3; }
+QPushButton:default:disabled { background: %2; border-color: %3; }
 QLabel#faint { color: %7; }
 QLabel#param_help { color: %7; border-top: 1px solid %3; padding-top: 6px; }
 QLabel#node_state { background: %2; border-radius: 4px; padding: 6px 8px; }
@@ -194,7 +194,6 @@ QCheckBox { spacing: 6px; padding: 2px; border: 1px solid transparent; border-ra
 QCheckBox:disabled { color: %7; }
 QCheckBox:focus { border-color: %5; }
 QLineEdit:focus, QPlainTextEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QTreeView:focus, QListView:focus, QTableView:focus { border: 1px solid %5; }
-QPushButton:focus { background: %6; }
 QTextBrowser { background: %8; border: 1px solid transparent; }
 QTextBrowser:focus { border-color: %5; }
 QSlider { border: 1px solid transparent; border-radius: 4px; min-height: 20px; }

@@ -205,12 +205,13 @@ QString Timeline::why_not(const std::string& node) const {
     case State::missing:
       return tr("failed, so there is nothing to play");
     case State::blocked:
-      return tr("waits for a node before it");
+      return tr("waits for a node before it that failed or is not linked");
     case State::incomplete:
       return tr("isn't linked yet");
     case State::cancelled:
       return tr("was cancelled");
     case State::waiting:
+      return tr("waits for its turn");
     case State::running:
       return tr("is being evaluated…");
     default:

@@ -147,23 +147,27 @@ void TimelineTracks::paintEvent(QPaintEvent*) {
     painter.fillRect(QRectF(gutter_, ruler, std::max(0.0, in - gutter_), height()), dim);
     painter.fillRect(QRectF(out, ruler, std::max(0.0, width() - out), height()), dim);
     painter.setPen(QPen(theme_->good, 2));
-    painter.drawLine(QPointF(in, 4), QPointF(in, height()));
-    painter.drawLine(QPointF(out, 4), QPointF(out, height()));
+    painter.drawLine(QPointF(in, ruler - 6), QPointF(in, height()));
+    painter.drawLine(QPointF(out, ruler - 6), QPointF(out, height()));
   }
-  const double at = x_of(playback_.time() * playback_.fps());
-  if (at >= gutter_ - 1 && at <= width()) {
+  if (const QRectF head = playhead(); !head.isNull()) {
+    const double at = x_of(playback_.time() * playback_.fps());
     painter.setPen(QPen(theme_->accent, 1.5));
     painter.drawLine(QPointF(at, ruler - 4), QPointF(at, height()));
-    const QString number = QString::number(playback_.frame());
-    const double wide = painter.fontMetrics().horizontalAdvance(number) + 10;
-    const double left = std::clamp(at - wide / 2, gutter_ - 10, width() - wide - 1.0);
     painter.setPen(Qt::NoPen);
     painter.setBrush(theme_->accent);
-    painter.drawRoundedRect(QRectF(left, 3, wide, ruler - 7), 3, 3);
+    painter.drawRoundedRect(head, 3, 3);
     painter.setPen(theme_->dark ? theme_->window : Qt::white);
-    painter.drawText(QRectF(left, 3, wide, ruler - 7), Qt::AlignCenter, number);
+    painter.drawText(head, Qt::AlignCenter, QString::number(playback_.frame()));
   }
   paint_focus(painter);
+}
+
+QRectF TimelineTracks::playhead() const {
+  const double at = x_of(playback_.time() * playback_.fps());
+  if (at < gutter_ - 1 || at > width()) return {};
+  const double wide = fontMetrics().horizontalAdvance(QString::number(playback_.frame())) + 10;
+  return {std::clamp(at - wide / 2, gutter_ - 10, width() - wide - 1.0), 3, wide, ruler - 7};
 }
 
 void TimelineTracks::paint_focus(QPainter& painter) const {
@@ -187,9 +191,11 @@ void TimelineTracks::paint_ruler(QPainter& painter) {
     const double x = x_of(frame);
     painter.setPen(theme_->line);
     painter.drawLine(QPointF(x, ruler - 6), QPointF(x, height()));
+    const QString number = QString::number(static_cast<int>(frame));
+    const double wide = painter.fontMetrics().horizontalAdvance(number);
+    if (QRectF(x - wide / 2 - 3, 0, wide + 6, ruler).intersects(playhead())) continue;
     painter.setPen(theme_->faint_text);
-    painter.drawText(QRectF(x - 40, 2, 80, ruler - 8), Qt::AlignCenter,
-                     QString::number(static_cast<int>(frame)));
+    painter.drawText(QRectF(x - 40, 2, 80, ruler - 8), Qt::AlignCenter, number);
   }
 }
 

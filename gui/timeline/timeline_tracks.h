@@ -49,6 +49,8 @@ class TimelineTracks : public QWidget {
   enum class Drag { none, scrub, in, out, pan };
   // What a tool tip says there: row, frame, and the foot of the bar.
   QString told_at(QPointF at) const;
+  // The badge with the frame that is shown; null: it lies outside.
+  QRectF playhead() const;
   void paint_ruler(QPainter& painter);
   void paint_focus(QPainter& painter) const;
   void fit_gutter();

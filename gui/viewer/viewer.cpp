@@ -433,7 +433,7 @@ void Viewer::update_scene() {
       looks.opacity = i > 0 ? 0.5f : 1.0f;
       add_motion(cell.scene, *ready[i]->motion, seconds, looks, *theme_, ready[i]->character);
       captions.push_back(
-          {QRectF(0, 0, 1, 1), caption_of(*ready[i]), i > 0 ? theme_->second : theme_->bone, false});
+          {QRectF(0, 0, 1, 1), caption_of(*ready[i]), i > 0 ? theme_->second : theme_->accent, false});
       captions.back().cell.setTop(
           std::min(0.9, caption_row * static_cast<double>(i) / std::max(1, stage_->height())));
     }
@@ -504,11 +504,13 @@ void Viewer::update_words() {
           break;
         }
     } else if (status && status->state == State::blocked) {
-      words = tr("%1 waits for something before it that failed or is not linked. Problems tells which.")
+      words = tr("%1 waits for a node before it that failed or is not linked. Problems tells which.")
                   .arg(name.toHtmlEscaped());
     } else if (status && status->state == State::cancelled) {
       words = tr("%1 was cancelled. Choose another node or change something, and work goes on.")
                   .arg(name.toHtmlEscaped());
+    } else if (status && status->state == State::waiting) {
+      words = tr("%1 waits for its turn.").arg(name.toHtmlEscaped());
     } else {
       words = tr("Evaluating %1…").arg(name.toHtmlEscaped());
     }

@@ -182,17 +182,18 @@ void MainWindow::update_actions() {
        history.can_undo() ? &history.steps()[history.position() - 1] : nullptr);
   step("redo", tr("&Redo"), session_.can_redo(),
        history.can_redo() ? &history.steps()[history.position()] : nullptr);
-  const bool chosen = !session_.selected().empty();
+  const bool writable = !session_.is_read_only();
+  const bool chosen = writable && !session_.selected().empty();
   for (const char* name : {"cut", "copy", "duplicate", "enable", "color", "group", "take_out", "collapse"})
     actions_.at(name)->setEnabled(chosen);
-  for (const char* name : {"rename", "link"}) actions_.at(name)->setEnabled(!session_.current().empty());
+  for (const char* name : {"rename", "link"})
+    actions_.at(name)->setEnabled(writable && !session_.current().empty());
+  for (const char* name : {"add", "arrange", "paste"}) actions_.at(name)->setEnabled(writable);
   const auto current = session_.document().nodes.find(session_.current());
   actions_.at("open_inside")
       ->setEnabled(current != session_.document().nodes.end() && current->second.nested != nullptr);
   for (const char* name : {"next_page", "previous_page"}) actions_.at(name)->setEnabled(session_.pages() > 1);
-  actions_.at("run")->setEnabled(!session_.is_read_only());
-  actions_.at("save")->setEnabled(!session_.is_read_only());
-  actions_.at("save_as")->setEnabled(!session_.is_read_only());
+  for (const char* name : {"run", "save", "save_as"}) actions_.at(name)->setEnabled(writable);
 }
 
 void MainWindow::show_keys() {

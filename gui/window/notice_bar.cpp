@@ -60,6 +60,7 @@ void NoticeBar::say(Kind kind, const QString& message, std::vector<Answer> answe
       act();
     });
     layout_->addWidget(button);
+    button->show();  // also on a bar that is shown already
     buttons_.push_back(button);
   }
   timer_.stop();

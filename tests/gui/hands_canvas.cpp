@@ -199,9 +199,9 @@ bool write_note(Hands& hands) {
 
 // Where a note can be taken hold of; null: nowhere.
 QPoint on_note(Hands& hands, const SceneNote& note) {
-  const QPointF at = note.rect.topLeft() + QPointF(12, 12);
+  const QPoint view = hands.canvas().to_view(note.rect.topLeft() + QPointF(12, 12)).toPoint();
+  const QPointF at = hands.canvas().to_graph(view);
   const SceneNote* found = hands.canvas().scene().note_at(at);
-  const QPoint view = hands.canvas().to_view(at).toPoint();
   if (!found || found->name != note.name || hands.canvas().scene().node_at(at) ||
       hands.canvas().scene().port_at(at, 40) || !hands.canvas().rect().contains(view))
     return {};
@@ -257,12 +257,13 @@ bool frame(Hands& hands) {
 
 bool with_frame(Hands& hands, const std::function<void(QPoint)>& act) {
   for (const SceneFrame& frame : hands.shuffled(hands.canvas().scene().frames())) {
-    const QPointF at = frame.title_bar.topLeft() + QPointF(16, 12);
+    const QPoint view = hands.canvas().to_view(frame.title_bar.topLeft() + QPointF(16, 12)).toPoint();
+    const QPointF at = hands.canvas().to_graph(view);  // what the pixel hits, from afar not quite that
     const SceneFrame* found = hands.canvas().scene().frame_title_at(at);
     if (!found || found->name != frame.name || hands.canvas().scene().node_at(at) ||
         hands.canvas().scene().note_at(at) || hands.canvas().scene().port_at(at, 40))
       continue;
-    act(hands.canvas().to_view(at).toPoint());
+    act(view);
     return true;
   }
   return false;

@@ -43,6 +43,7 @@ void notices(const Theme& theme, const QDir& into, const QString& end) {
       newer.write(R"({"format": "kinegraph", "schema": 99, "nodes": {"gait": {"type": "Gait"}}})");
     newer.close();
     shot.window.open(newer.fileName());
+    shot.wait();
     shot.canvas().add("Filter", {260, 0});
     shot.take("edit_refused" + end);
   }

@@ -112,6 +112,9 @@ void gestures(const Theme& theme, const QDir& into, const QString& end) {
     shot.wait();
     shot.drag(shot.port("transfer", "motion", false), shot.port("style", "motion", true) + QPoint(2, 0));
     shot.take_widget("refused_wire" + end, &shot.canvas());
+    QTest::keyClick(&shot.canvas(), Qt::Key_Escape);
+    shot.drag(shot.port("style", "stats", false), shot.port("unwarp", "motion", true) + QPoint(-2, 0));
+    shot.take_widget("refused_type" + end, &shot.canvas());
   }
   {
     Shot shot(theme, into);
@@ -237,7 +240,8 @@ void troubles(const Theme& theme, const QDir& into, const QString& end) {
     Shot shot(theme, into);
     QFile newer(shot.folder.filePath("newer.kg.json"));
     if (newer.open(QIODevice::WriteOnly))
-      newer.write("{\"format\": \"kinegraph\", \"schema\": 99, \"nodes\": {}}\n");
+      newer.write(R"({"format": "kinegraph", "schema": 99, "nodes": {"gait": {"type": "Gait"},
+        "soft": {"type": "Filter", "inputs": {"motion": "gait.motion"}}}})");
     newer.close();
     shot.window.open(newer.fileName());
     shot.wait();

@@ -47,7 +47,7 @@ void gestures_under_way(const Theme& theme, const QDir& into, const QString& end
     shot.canvas().show_rect(
         shot.canvas().scene().bounds_of({"style", "transfer", "unwarp"}).adjusted(-30, -60, 30, 60));
     shot.wait();
-    shot.drag(shot.port("style", "stats", false), shot.port("transfer", "style", true) + QPoint(-60, 30));
+    shot.drag(shot.port("style", "stats", false), shot.port("transfer", "style", true) + QPoint(-20, 110));
     shot.take_widget("link_under_way" + end, &shot.canvas());
   }
   {
