@@ -82,13 +82,38 @@ void check_order(const JointStats& stats, const std::string& order, const std::s
                     .hinting("use space quaternion, which knows no order, or leave the joint out of joints"));
 }
 
+// `chosen`: empty = all. A transfer onto none of them would only be a copy.
+void check_any_partner(const Skeleton& measured, const Skeleton& skeleton, const std::vector<int>& partner,
+                       const std::vector<bool>& chosen) {
+  std::vector<std::string> alone, others;
+  for (std::size_t j = 0; j < partner.size(); ++j) {
+    if (!chosen.empty() && !chosen[j]) continue;
+    if (partner[j] >= 0) return;
+    alone.push_back(skeleton.joints[j].name);
+  }
+  for (const Joint& joint : measured.joints) others.push_back(joint.name);
+  throw Failure(
+      error("no-partner", fmt::format("no joint has a partner in the style, so there is nothing to "
+                                      "transfer: the motion has {}, the style {}",
+                                      listed(alone), listed(others)))
+          .at_port("style")
+          .hinting("put a Retarget node onto this motion's skeleton before the style's QuatStats, or "
+                   "name partners with the parameter map, as FROM=TO"));
+}
+
 // Which statistics each joint is changed by; none for joints that aren't chosen or have no partner.
 std::vector<Source> sources_of(const Motion& motion, const Stats& style, const Stats& own,
                                const StyleTransferParams& params, Work& work) {
   const Skeleton& skeleton = motion.skeleton();
   const Skeleton measured = skeleton_of(style);
   const std::vector<int> partner = partners(measured, skeleton, params.map);
-  warn_about_partners(measured, skeleton, partner, work);
+  check_any_partner(measured, skeleton, partner, params.joints);
+  Alone told;
+  warn_about_partners(measured, skeleton, partner, told);
+  for (Diagnostic& one : told.reported) {
+    if (one.code == "rest-pose-differs") one.hint = "put a Retarget node before the style's QuatStats";
+    work.report(std::move(one));
+  }
 
   std::vector<Source> sources(skeleton.joints.size());
   for (std::size_t j = 0; j < sources.size(); ++j) {

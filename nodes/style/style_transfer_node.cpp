@@ -86,7 +86,7 @@ NodeType style_transfer_node() {
   add_fade_param(type);
   add_amount_param(type);
   add_map_param(type);
-  type.code_version = 6;
+  type.code_version = 7;
   type.compute = [](Compute& compute) {
     const auto told = with_moving_root(compute.shared_input<Motion>("motion"), compute.work());
     const Motion& motion = *told;

@@ -477,6 +477,37 @@ TEST(StyleTransfer, MapsJointsByName) {
   EXPECT_EQ(refusal(source, style, params), "unknown-joint");
 }
 
+TEST(StyleTransfer, RefusesAStyleOfWhichNoJointHasAPartner) {
+  const Motion source = lively().made(100);
+  Stats style = stats_of(bowed().made(100));
+  for (JointStats& joint : style.joints) joint.joint = "b_" + joint.joint;
+  try {
+    transferred(source, style);
+    FAIL() << "it was taken";
+  } catch (const Failure& failure) {
+    const Diagnostic& told = failure.diagnostic();
+    EXPECT_EQ(told.code, "no-partner");
+    EXPECT_NE(told.message.find("b_Spine"), std::string::npos) << told.message;
+    for (const char* way : {"Retarget", "map"})
+      EXPECT_NE(told.hint.find(way), std::string::npos) << told.hint;
+  }
+  // Of the chosen joints none either, though others have one.
+  style.joints[0].joint = "Hips";
+  StyleTransferParams params;
+  params.joints = {false, true, true};
+  EXPECT_EQ(refusal(source, style, params), "no-partner");
+}
+
+TEST(StyleTransfer, NamesThePlaceOfARetargetWhereRestPosesDiffer) {
+  const Motion source = lively().made(100);
+  Stats style = stats_of(bowed().made(100));
+  style.offsets[2] = {0.4, 0, 0};
+  const Diagnostics told = told_by(source, style);
+  const Diagnostic* differs = find(told, "rest-pose-differs");
+  ASSERT_TRUE(differs);
+  EXPECT_NE(differs->hint.find("before the style's QuatStats"), std::string::npos) << differs->hint;
+}
+
 TEST(StyleTransfer, LeavesAloneJointsThatTheStyleDoesNotHold) {
   QuatStatsParams only_spine;
   only_spine.joints = {false, true, false};
