@@ -3,11 +3,22 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <memory>
 
 #include "headless/commands.h"
 
 namespace kinegraph {
 namespace {
+
+// Where a word that nobody takes may have been meant to go: "OPTION …; ", or nothing.
+std::string place_of_word(const CLI::App& command) {
+  if (command.get_parent() && command.get_parent()->get_name() == "cache")
+    return "the folder goes after --cache; ";
+  for (const char* repeated : {"--target", "--set", "--var", "--each", "--rule", "--assets"})
+    if (const auto* option = command.get_option_no_throw(repeated); option && option->count() > 0)
+      return fmt::format("{0} takes one word: repeat {0} before each; ", repeated);
+  return {};
+}
 
 // What CLI11 says of a wrong command line, as every other mistake is told.
 Diagnostic misused(const CLI::App& app, const CLI::ParseError& problem) {
@@ -34,6 +45,7 @@ Diagnostic misused(const CLI::App& app, const CLI::ParseError& problem) {
     if (!near.empty()) hint = fmt::format("did you mean {}? ", near);
   } else if (is_extra) {
     message = fmt::format("{} is one word too many", last);
+    hint = place_of_word(*command);
   } else if (!commands.empty()) {
     message = fmt::format("{} needs a command", name);
     hint = fmt::format("{}; ", fmt::join(commands, ", "));
@@ -63,12 +75,22 @@ void check_that_commands_are_known(const CLI::App& app, int argc, char** argv) {
   }
 }
 
+// Without CLI11's "Excludes: --other" between an option and what it does: the descriptions say it in words.
+class HelpFormat : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = Formatter::make_option_opts(option);
+    return text.substr(0, text.find(" Excludes:"));
+  }
+};
+
 }  // namespace
 
 Choice read_command_line(const Program& program, int argc, char** argv) {
   CLI::App app{"Kinegraph: a compositor for character motion.", "kinegraph"};
   app.set_version_flag("--version", "kinegraph " + program.version);
   app.require_subcommand(1);
+  app.formatter(std::make_shared<HelpFormat>());
   app.footer(
       "Exit codes: 0 done, 1 a node failed, 2 wrong usage, 3 a graph or file is invalid or a write refused,\n"
       "4 checks failed, 5 writing failed, 70 internal error, 124 timed out, 130 and 143 interrupted.");

@@ -9,6 +9,7 @@
 #include "headless/exit_code.h"
 #include "headless/loaded_file.h"
 #include "nodes/judge/rules.h"
+#include "nodes/node_params.h"
 
 namespace kinegraph {
 
@@ -45,6 +46,21 @@ Measured measured(const Program& program, const std::string& file, bool needs_me
         session.evaluator().value(session.plan(), "metrics", "metrics"));
   }
   return result;
+}
+
+// Frame t against frame t means nothing where they are at different times.
+void check_rates(const Motion& a, const Motion& b, const CompareArguments& arguments) {
+  try {
+    check_same_rate(a.fps(), b.fps(), arguments.a, arguments.b);
+  } catch (const Failure& failure) {
+    const bool a_is_faster = a.fps() > b.fps();
+    Diagnostic problem = failure.diagnostic();
+    problem.port.clear();
+    problem.hint = fmt::format(
+        "motions are compared frame by frame; resample one first: kinegraph convert {} OUT --fps {:g}",
+        a_is_faster ? arguments.a : arguments.b, a_is_faster ? b.fps() : a.fps());
+    throw Failure(problem);
+  }
 }
 
 Json value_or_null(const std::optional<double>& value) {
@@ -160,6 +176,7 @@ int compare_command(const Program& program, const CompareArguments& arguments) {
   Metrics judged;
   if (a.metrics) judged = *a.metrics;
   if (a.motion) {
+    check_rates(*a.motion, *b.motion, arguments);
     Alone work;
     auto comparison = compare_motions(*a.motion, *b.motion, {}, work);
     auto differences = metrics_of(comparison);

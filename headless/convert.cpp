@@ -9,6 +9,8 @@
 #include "headless/commands.h"
 #include "headless/exit_code.h"
 #include "headless/loaded_file.h"
+#include "nodes/files/formats.h"
+#include "nodes/files/length_unit.h"
 #include "nodes/files/motion_file.h"
 
 namespace kinegraph {
@@ -27,6 +29,17 @@ Json unit_param(const Program& program, const char* type, const std::string& tex
   } catch (const Failure& failure) {
     throw UsageError(failure.diagnostic());
   }
+}
+
+// The other formats' lengths are metres, whatever is asked for.
+void refuse_unit_of_format(const Json& unit, const ConvertArguments& arguments) {
+  const std::string format = write_format_of(arguments.out);
+  const bool has_unit = format.empty() || format == "bvh" || format == "c3d" || format == "trc";
+  if (arguments.out_unit.empty() || has_unit || unit_from_param(unit, {0, ""}).metres == 1) return;
+  throw UsageError(
+      Diagnostic(error("no-unit", fmt::format("--out-unit {}: lengths in files of the format {} are metres",
+                                              arguments.out_unit, format))
+                     .hinting("leave --out-unit out, or write a format that has a unit: bvh, c3d, trc")));
 }
 
 // As a run refuses to write onto what it reads: the one that was captured would be gone.
@@ -50,6 +63,7 @@ int convert_command(const Program& program, const ConvertArguments& arguments) {
   read.unit = unit_param(program, "Load", arguments.unit, "--unit");
   WriteOptions write;
   write.unit = unit_param(program, "Export", arguments.out_unit, "--out-unit");
+  refuse_unit_of_format(write.unit, arguments);
   const std::string in = absolute_path(arguments.in), out = absolute_path(arguments.out);
   files.allow(in);
   EncodedFile encoded;
@@ -67,10 +81,12 @@ int convert_command(const Program& program, const ConvertArguments& arguments) {
       problem.param.clear();
       problem.file = arguments.out;
     }
+    problem.hint = hint_without_nodes(std::move(problem.hint), {"unit"});
     throw Failure(as_typed(std::move(problem), in, arguments.in));
   }
   for (Diagnostic one : work.reported) {
     if (one.file.empty()) one.file = arguments.in;
+    one.hint = hint_without_nodes(std::move(one.hint), {"unit"});
     program.terminal.say(one);
   }
   try {

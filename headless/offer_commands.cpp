@@ -145,7 +145,7 @@ void offer_diff(CLI::App& app, Choice& choice) {
   command.add_option("A", given->a, "A graph file")->required()->type_name("");
   command.add_option("B", given->b, "Another, or a later state of it")->type_name("");
   command.add_flag("--check", given->check, "Exit 1 when they differ");
-  auto as_json = command.add_flag("--json", given->json, "As JSON");
+  auto as_json = command.add_flag("--json", given->json, "As JSON; not with --textconv");
   command.add_flag("--textconv", given->textconv, "A alone, one line for each thing it says, for git diff")
       ->excludes(as_json);
   chooses(command, choice, [given](const Program& program) { return diff_command(program, *given); });
@@ -215,7 +215,7 @@ void offer_nodes(CLI::App& app, Choice& choice) {
   const auto given = std::make_shared<Given>();
   auto& command = *app.add_subcommand("nodes", "The node reference");
   command.add_option("TYPE", given->node, "One type")->type_name("");
-  auto as_json = command.add_flag("--json", given->json, "As JSON");
+  auto as_json = command.add_flag("--json", given->json, "As JSON; not with --markdown");
   command.add_flag("--markdown", given->markdown, "As Markdown")->excludes(as_json);
   chooses(command, choice, [given](const Program& program) {
     return nodes_command(program, given->node,
@@ -244,11 +244,17 @@ void offer_picture(CLI::App& app, Choice& choice) {
 
 void offer_compare(CLI::App& app, Choice& choice) {
   const auto given = std::make_shared<CompareArguments>();
-  auto& command = *app.add_subcommand("compare", "How two motions, or two files of metrics, differ");
-  command.add_option("A", given->a, "A motion file")->required()->type_name("");
-  command.add_option("B", given->b, "Another")->required()->type_name("");
+  auto& command =
+      *app.add_subcommand("compare", "How two motions of one rate, or two files of metrics, differ");
+  command.add_option("A", given->a, "A motion file; rules judge it")->required()->type_name("");
+  command.add_option("B", given->b, "Another, the baseline of rules: baseline.NAME is its metric")
+      ->required()
+      ->type_name("");
   command.add_flag("--json", given->json, "As JSON");
-  command.add_option("--rule", given->rules, "What must hold, such as 'difference.position_max < 0.001'")
+  command
+      .add_option(
+          "--rule", given->rules,
+          "What must hold of A, such as 'difference.position_max < 0.001' or 'skate <= baseline.skate'")
       ->type_name("RULE")
       ->allow_extra_args(false);
   chooses(command, choice, [given](const Program& program) { return compare_command(program, *given); });
@@ -275,7 +281,9 @@ void offer_convert(CLI::App& app, Choice& choice) {
       ->check(CLI::Range(0.001, 100000.0));
   command.add_option("--unit", given->unit, "The unit that IN is in: m, cm, mm, in, cmu, or metres")
       ->type_name("U");
-  command.add_option("--out-unit", given->out_unit, "The unit for OUT; the source's without it")
+  command
+      .add_option("--out-unit", given->out_unit,
+                  "The unit for OUT, of bvh, c3d and trc; the source's without it. The others are in metres")
       ->type_name("U");
   chooses(command, choice, [given](const Program& program) { return convert_command(program, *given); });
 }

@@ -118,6 +118,19 @@ TEST_F(Values, CompareTellsHowMotionsDifferAndJudgesByRules) {
   EXPECT_EQ(run({"compare", "a.bvh", "none.bvh"}).exit, 3);
 }
 
+TEST_F(Values, CompareRefusesMotionsOfDifferentRates) {
+  write("g.kg.json", walk_and_style());
+  ASSERT_EQ(run({"get", "g.kg.json", "walk.motion", "-o", "a.bvh"}).exit, 0);
+  ASSERT_EQ(run({"convert", "a.bvh", "slow.bvh", "--fps", "24"}).exit, 0);
+  const Ran ran = run({"compare", "a.bvh", "slow.bvh"});
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_EQ(ran.out, "");
+  EXPECT_THAT(ran.err, HasSubstr("rate-mismatch: a.bvh has 120 frames per second and slow.bvh has 24"));
+  EXPECT_THAT(ran.err, HasSubstr("kinegraph convert a.bvh OUT --fps 24"));
+  ASSERT_EQ(run({"convert", "a.bvh", "as_slow.bvh", "--fps", "24"}).exit, 0);
+  EXPECT_THAT(run({"compare", "as_slow.bvh", "slow.bvh"}).out, HasSubstr("identical"));
+}
+
 TEST_F(Values, CompareTakesFilesOfMetrics) {
   write("a.json", metrics_file(0.02));
   write("b.json", metrics_file(0.01));
@@ -125,6 +138,10 @@ TEST_F(Values, CompareTakesFilesOfMetrics) {
   EXPECT_EQ(ran.exit, 4);
   EXPECT_THAT(ran.out, HasSubstr("skate"));
   EXPECT_EQ(run({"compare", "b.json", "a.json", "--rule", "skate < 1.05 * baseline.skate"}).exit, 0);
+  const std::string help = run({"compare", "--help"}).out;
+  EXPECT_THAT(help, HasSubstr("rules judge it"));
+  EXPECT_THAT(help, HasSubstr("the baseline of rules"));
+  EXPECT_THAT(run({"diff", "--help"}).out, testing::Not(HasSubstr("Excludes")));
 }
 
 TEST_F(Values, PicturesOfRealClips) {
