@@ -39,7 +39,8 @@ class Packing {
     }
     Document whole = session_.document();
     for (const auto& [name, value] : variables_.given) whole.variables[name] = typed(value);
-    place_graph(session_.opened().path, whole, "");
+    place_graph(session_.opened().path, whole, "", "");
+    if (code_ != exit_code::done) return code_;  // half of it would be no use to anybody
     for (const auto& [path, text] : graphs_) {
       fs::create_directories(fs::path(path).parent_path());
       write_file_atomically(path, text);
@@ -80,7 +81,9 @@ class Packing {
 
   // Its graphs and clips are placed with it. A file that stands for different things at two places, by its
   // variables, is there twice.
-  std::string place_graph(const std::string& path, const Document& document, const std::string& below) {
+  // `inside`: the names of the nodes that it is inside of, "outer/inner/".
+  std::string place_graph(const std::string& path, const Document& document, const std::string& below,
+                          const std::string& inside) {
     const fs::path from = fs::path(path).parent_path(), to = fs::path(folder_) / below;
     Document packed = document;
     variables_.files.push_back(&document.variables);
@@ -91,7 +94,7 @@ class Packing {
         const Param* param = type->find_param(key);
         if (!param) continue;
         const bool graph = type->role == Role::graph && key == "file";
-        relink(*param, value, from, to, graph ? &node : nullptr);
+        relink(*param, value, {path, inside + name, from, to}, graph ? &node : nullptr);
       }
     }
     variables_.files.pop_back();
@@ -127,30 +130,40 @@ class Packing {
     return !relative.empty() && !relative.starts_with("..");
   }
 
-  void relink(const ParamType& type, Json& value, const fs::path& from, const fs::path& to,
-              const Node* graph) {
+  struct Spot {         // where a path stands
+    std::string graph;  // the file that says it
+    std::string node;
+    fs::path from, to;  // the folders that it leads from: here, and in what is packed
+  };
+  void relink(const ParamType& type, Json& value, const Spot& spot, const Node* graph) {
     if (type.kind == Kind::list && value.is_array())
-      for (Json& element : value.array()) relink(type.parts[0], element, from, to, nullptr);
+      for (Json& element : value.array()) relink(type.parts[0], element, spot, nullptr);
     if (type.kind == Kind::object && value.is_object())
       for (const ParamType& field : type.parts)
-        if (value.find(field.name)) relink(field, value.object()[field.name], from, to, nullptr);
+        if (value.find(field.name)) relink(field, value.object()[field.name], spot, nullptr);
     if (type.kind != Kind::open_file || !value.is_string() || value.string().empty()) return;
     Diagnostics problems;  // there are none: the graph is valid
     const Json meant = substituted(value, type, variables_, type.name, problems);
     if (has_error(problems) || !meant.is_string() || meant.string().empty()) return;
-    const std::string path = (from / meant.string()).lexically_normal().string();
+    const std::string path = (spot.from / meant.string()).lexically_normal().string();
     std::string there;
     if (graph && graph->nested && graph->nested->document) {
-      there = place_graph(path, *graph->nested->document, "graphs");
+      there = place_graph(path, *graph->nested->document, "graphs", spot.node + "/");
     } else if (!session_.files().exists(path)) {
+      const bool is_top = spot.graph == session_.opened().path;
       program_.terminal.say(
-          error("missing-file", fmt::format("there is no file {}", in_quotes(meant.string()))));
-      code_ = exit_code::failed;
+          error("missing-file", fmt::format("there is no file {}", in_quotes(meant.string())))
+              .in_file(is_top ? session_.opened().shown : fs::proximate(spot.graph).generic_string(),
+                       value.place)
+              .at_node(spot.node)
+              .at_param(type.name)
+              .hinting("nothing was packed; `kinegraph validate` names everything that is missing"));
+      code_ = exit_code::invalid;
       return;
     } else {
       there = place_clip(path);
     }
-    value = Json(fs::path(there).lexically_relative(to).generic_string());
+    value = Json(fs::path(there).lexically_relative(spot.to).generic_string());
   }
 
   const Program& program_;

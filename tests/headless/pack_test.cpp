@@ -6,6 +6,7 @@ namespace kinegraph {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
 using testing::Not;
@@ -111,15 +112,21 @@ TEST_F(Pack, TakesTheSkeletonOfAnAcclaimMotion) {
   EXPECT_EQ(made("packed/main.kg.json", "o.bvh", {"--sandbox"}), there);
 }
 
-TEST_F(Pack, AMissingClipIsToldAndTheRestIsPacked) {
+TEST_F(Pack, AMissingClipIsToldWithItsNodeAndLineAndNothingIsPacked) {
   clip("walk.bvh", 1);
+  write("lib/inner.kg.json", graph(R"("lost": {"type": "Load", "params": {"file": "lost.bvh"}})",
+                                   R"("outputs": {"motion": "lost.motion"})"));
   write("main.kg.json", graph(R"("walk": {"type": "Load", "params": {"file": "walk.bvh"}},
     "gone": {"type": "Load", "params": {"file": "gone.bvh"}},
+    "inner": {"type": "Graph", "params": {"file": "lib/inner.kg.json"}},
     "out": {"type": "Export", "params": {"file": "o.bvh"}, "inputs": {"motion": "walk.motion"}})"));
   const Ran ran = run({"pack", "main.kg.json", "-o", "packed"});
-  EXPECT_EQ(ran.exit, 1);
-  EXPECT_THAT(ran.err, HasSubstr("missing-file: there is no file \"gone.bvh\""));
-  EXPECT_TRUE(exists("packed/clips/walk.bvh"));
+  EXPECT_EQ(ran.exit, 3);
+  EXPECT_THAT(ran.err, HasSubstr("missing-file: gone.file: there is no file \"gone.bvh\""));
+  EXPECT_THAT(ran.err, ContainsRegex("main\\.kg\\.json:[0-9]+:[0-9]+: "));
+  EXPECT_THAT(ran.err, HasSubstr("missing-file: inner/lost.file: there is no file \"lost.bvh\""));
+  EXPECT_THAT(ran.err, ContainsRegex("lib/inner\\.kg\\.json:[0-9]+:[0-9]+: "));
+  EXPECT_FALSE(exists("packed"));
 }
 
 }  // namespace
