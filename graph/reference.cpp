@@ -99,6 +99,11 @@ std::map<std::string, std::vector<const NodeType*>> by_family(const Registry& re
   return families;
 }
 
+// Families write their help with or without a full stop; before another sentence it needs one.
+std::string sentence(const std::string& help) {
+  return help.empty() || help.ends_with('.') ? help : help + ".";
+}
+
 }  // namespace
 
 std::string reference_list(const Registry& registry) {
@@ -120,8 +125,8 @@ std::string reference_text(const NodeType& type) {
     out += fmt::format("  {}: {}{}\n      {}\n", port.name, types_of(port), remarks(port), port.help);
   if (!type.outputs.empty()) out += "\nOutputs\n";
   for (const OutputPort& port : type.outputs)
-    out += fmt::format("  {}: {}\n      {} When disabled: {}.\n", port.name, type_of(port), port.help,
-                       when_disabled(port));
+    out += fmt::format("  {}: {}\n      {} When disabled: {}.\n", port.name, type_of(port),
+                       sentence(port.help), when_disabled(port));
   if (!type.params.empty()) out += "\nParameters\n";
   for (const Param& param : type.params) {
     out +=

@@ -25,7 +25,7 @@ TEST(Reference, TellsAllOfAType) {
   const Registry registry = toys::registry();
   const std::string text = reference_text(*registry.find("StyleTransfer"));
   EXPECT_THAT(text, HasSubstr("own: Stats, optional"));
-  EXPECT_THAT(text, HasSubstr("motion: Motion\n      m When disabled: passes on motion."));
+  EXPECT_THAT(text, HasSubstr("motion: Motion\n      m. When disabled: passes on motion."));
   EXPECT_THAT(text, HasSubstr("amount = 1: a number from 0 to 1\n      how much"));
   EXPECT_THAT(text, HasSubstr("root = \"both\": one of both, travel, none"));
   EXPECT_THAT(text, HasSubstr("component: which — a whole number from 1 to 99, required"));
