@@ -52,7 +52,11 @@ NodeType time_warp_node() {
   type.keywords = {"align", "dtw", "imw", "timing", "synchronise", "correspondence"};
   type.input("source", {"Motion"}, "The motion to be changed later.");
   type.input("reference", {"Motion"}, "The motion to compare it with, of the same rate.");
-  type.output("warped", "Motion", "The source on the shared clock.", "source");
+  type.output(
+      "warped", "Motion",
+      "The source's poses on the shared clock, made for measuring and transferring; where the clock holds a "
+      "frame its travel is repeated, so it is no finished retimed clip: UnwarpTime takes it back.",
+      "source");
   type.output("reference", "Motion", "The reference on the shared clock.", "reference");
   type.output("warp", "Warp", "What UnwarpTime needs to go back to the source's timing.");
   type.outputs.back().constant = [] { return std::make_shared<const Warp>(); };
