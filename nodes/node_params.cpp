@@ -47,7 +47,11 @@ Frames checked_range(const FrameRange& range, std::size_t frames, std::string_vi
                           "end",
                           count - 1)));
   };
-  if (count == 0) refuse("the motion has no frames");
+  if (count == 0)
+    throw Failure(
+        error("no-frames", "the motion has no frames")
+            .hinting("its file may hold a skeleton alone, as an .asf does: load the clip, such as an "
+                     ".amc beside it"));
   if (range.start < 0) refuse(fmt::format("the range starts at frame {}", range.start));
   if (range.start >= count) refuse(fmt::format("the range starts at frame {}, past the last", range.start));
   if (end > count) refuse(fmt::format("the range ends at frame {}, past the motion's {} frames", end, count));
