@@ -13,7 +13,7 @@ namespace kinegraph {
 
 struct FootskateParams {
   double blend = 0.3;            // s over which a change dies away in free frames
-  double stretch = 0.05;         // most change of a leg's length, as a part of it; 0 = rigid legs
+  double stretch = 0.05;         // most change of a planted leg's length, as a part of it; 0 = rigid legs
   double knee_damping = 90;      // degrees of flexion from which on the knee bends freely
   std::optional<double> floor;   // world height for all plants, m; none = each plant keeps its own
   double root_smoothing = 0.08;  // s
@@ -24,7 +24,8 @@ struct FootskateResult {
   double largest_residual = 0;  // m, in planted frames, that `stretch` did not allow
   std::size_t residual_frame = 0;
   int residual_joint = -1;
-  double largest_stretch = 0;    // |length / original - 1|
+  double largest_stretch =
+      0;  // |length / original - 1|; also while a foot swings, where it may pass `stretch`
   double largest_root_move = 0;  // m
 };
 

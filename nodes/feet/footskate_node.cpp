@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "graph/compute.h"
 #include "graph/node_type.h"
 #include "nodes/feet/carried_contacts.h"
@@ -20,6 +22,11 @@ FootskateParams footskate_params(const Params& params) {
   return result;
 }
 
+bool any_planted(const Contacts& contacts) {
+  return std::any_of(contacts.points.begin(), contacts.points.end(),
+                     [](const FootPoint& point) { return !runs_of(point.planted).empty(); });
+}
+
 void clean(Compute& node) {
   const auto& motion = node.input<Motion>("motion");
   std::shared_ptr<const Contacts> contacts;
@@ -34,11 +41,19 @@ void clean(Compute& node) {
   const std::vector<double> weights = change_weights(node.params(), motion.frames(), motion.fps());
   FootskateResult result =
       clean_footskate(motion, *contacts, footskate_params(node.params()), weights, node.work());
-  node.work().report(info(
-      "footskate",
-      fmt::format("legs stretch by up to {:.4f}, the root moves by up to {:.1f} mm, plants "
-                  "are met within {:.2f} mm",
-                  result.largest_stretch, 1000 * result.largest_root_move, 1000 * result.largest_residual)));
+  if (any_planted(*contacts)) {
+    node.work().report(info(
+        "footskate", fmt::format("legs stretch by up to {:.4f}, the root moves by up to {:.1f} mm, plants "
+                                 "are met within {:.2f} mm",
+                                 result.largest_stretch, 1000 * result.largest_root_move,
+                                 1000 * result.largest_residual)));
+  } else {
+    node.work().report(
+        warning("no-plants", "no foot is planted, nothing is held")
+            .at_port("contacts")
+            .hinting("link DetectContacts of the clip as it was before its style was changed; or lower "
+                     "DetectContacts' min_time, or set plants by its edits"));
+  }
   node.output("motion", std::move(result.motion));
 }
 
@@ -61,9 +76,12 @@ NodeType footskate_node() {
   type.output("contacts", "Contacts", "The contacts that were held.", "contacts");
   type.param("blend", number(defaults.blend).between(0.01, 10).in("s").slider(0.05, 1),
              "How long a change takes to die away in frames without a plant.");
-  type.param("stretch", number(defaults.stretch).between(0, 0.9).slider(0, 0.15),
-             "Most change of a leg's length, as a part of it; 0 = rigid legs. CMU walks that drift at 0.15 "
-             "m/s need 0.047.");
+  type.param(
+      "stretch", number(defaults.stretch).between(0, 0.9).slider(0, 0.15),
+      "Most change of a leg's length while its foot is planted, as a part of it; 0 = rigid legs. As the "
+      "change "
+      "dies away without a jerk, a swinging leg may go a little beyond. CMU walks that drift at 0.15 m/s "
+      "need 0.047.");
   type.param("knee_damping", number(defaults.knee_damping).between(0, 180).in("°").slider(0, 150),
              "Flexion from which on the knee bends freely; towards extension it keeps its angle, so that it "
              "can't pop.");
@@ -76,7 +94,7 @@ NodeType footskate_node() {
   add_range_param(type);
   add_fade_param(type);
   add_amount_param(type);
-  type.code_version = 8;
+  type.code_version = 9;
   type.compute = clean;
   return type;
 }

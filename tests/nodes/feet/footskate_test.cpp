@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "graph/diagnostic.h"
+#include "nodes/all_nodes.h"
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/feet/foot_points.h"
 #include "tests/nodes/feet/walks_and_runs.h"
+#include "tests/nodes/run_node.h"
 
 namespace kinegraph {
 namespace {
@@ -125,6 +127,43 @@ TEST(Footskate, DefaultStretchIsEnoughForEveryCmuWalkThatDrifts) {
       EXPECT_LT(cleaned(motion, contacts_of(motion)).largest_residual, 1e-9) << name << ' ' << along;
     }
   }
+}
+
+TEST(Footskate, StretchesPlantedLegsByNoMoreThanItsParameter) {
+  const Motion motion = drifted(gait_motion("walk"), 0.15, 0);
+  const Contacts contacts = contacts_of(motion);
+  FootskateParams tight;
+  tight.stretch = 0.01;
+  const FootskateResult result = cleaned(motion, contacts, tight);
+  EXPECT_GE(result.largest_stretch, tight.stretch) << "the legs want more than they may";
+  const Skeleton& skeleton = motion.skeleton();
+  for (const FootPoint& point : contacts.points) {
+    const int ankle = skeleton.find(point.foot),
+              knee = skeleton.joints[static_cast<std::size_t>(ankle)].parent;
+    for (const int joint : {knee, ankle})
+      for (std::size_t t = 0; t < motion.frames(); ++t) {
+        if (!point.planted[t]) continue;
+        const double times = norm(result.motion.local_offset(joint, t)) / norm(motion.local_offset(joint, t));
+        EXPECT_LE(std::abs(times - 1), tight.stretch + 1e-12)
+            << skeleton.joints[static_cast<std::size_t>(joint)].name << " " << t;
+      }
+  }
+}
+
+TEST(Footskate, WarnsWhereNoFootIsPlanted) {
+  const Motion walk = gait_motion("walk");
+  Contacts none = contacts_of(walk);
+  for (FootPoint& point : none.points) {
+    point.planted.assign(walk.frames(), false);
+    point.heights.clear();
+  }
+  NodeInMemory node(*all_nodes().find("Footskate"));
+  node.link("motion", walk).link("contacts", none).run();
+  const Diagnostics& told = node.reported();
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].code, "no-plants");
+  EXPECT_EQ(told[0].severity, Severity::warning);
+  EXPECT_NE(told[0].hint.find("DetectContacts of the clip"), std::string::npos) << told[0].hint;
 }
 
 TEST(Footskate, ReportsWhatRigidLegsCannotReach) {
