@@ -43,7 +43,10 @@ TEST(Range, outside_the_motion_or_empty_is_refused_at_its_parameter) {
     EXPECT_EQ(refusal(range, 10).param, "range");
     EXPECT_NE(refusal(range, 10).hint.find("0 to 9"), std::string::npos);
   }
-  EXPECT_EQ(refusal({0, {}}, 0).code, "bad-range");
+  const Diagnostic none = refusal({0, {}}, 0);
+  EXPECT_EQ(none.code, "no-frames");
+  EXPECT_EQ(none.message, "the motion has no frames");
+  EXPECT_NE(none.hint.find(".amc"), std::string::npos) << "an .asf is a skeleton alone";
 }
 
 TEST(ChangeWeights, are_the_amount_throughout_without_a_range) {
