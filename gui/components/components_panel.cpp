@@ -298,6 +298,8 @@ void ComponentsPanel::take_values() {
                           .arg(QString::fromStdString(components_.node)));
     } else if (status && status->state == NodeStatus::State::cancelled) {
       empty_->setText(tr("%1 was cancelled.").arg(QString::fromStdString(components_.node)));
+    } else if (session_.is_read_only()) {
+      empty_->setText(tr("A graph of a newer Kinegraph can't be computed here."));
     } else {
       empty_->setText(tr("Finding the components of %1…").arg(QString::fromStdString(components_.node)));
     }

@@ -280,7 +280,8 @@ QString CurvesPanel::why_not(const Offer& offer) const {
     case State::cancelled:
       return tr("%1 was cancelled.").arg(node);
     default:
-      return tr("Evaluating %1…").arg(offer.name);
+      return session_.is_read_only() ? tr("A graph of a newer Kinegraph can't be computed here.")
+                                     : tr("Evaluating %1…").arg(offer.name);
   }
 }
 

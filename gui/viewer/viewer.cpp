@@ -480,7 +480,9 @@ void Viewer::update_words() {
   const bool any =
       std::any_of(shown_.begin(), shown_.end(), [](const Shown& one) { return one.motion != nullptr; });
   QString words;
-  if (session_.document().nodes.empty()) {
+  if (session_.is_read_only()) {
+    words = tr("A newer Kinegraph made this graph; what its nodes give can't be computed here.");
+  } else if (session_.document().nodes.empty()) {
     words = tr("Motions are shown here. Add a Load or a Gait to the graph.");
   } else if (shown_.empty()) {
     words = tr("Nothing at this node moves. Choose a node that makes a motion.");

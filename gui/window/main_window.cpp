@@ -263,7 +263,9 @@ void MainWindow::update_progress() {
       name = QString::fromStdString(node);
     }
   progress_->setValue(running ? int(1000 * sum / running) : 0);
-  if (reads)
+  if (session_.is_read_only())
+    state_text_->setText(tr("Read-only"));
+  else if (reads)
     state_text_->setText(tr("Reading the graph files inside"));
   else if (busy)
     state_text_->setText(running == 1 ? tr("%1 is running").arg(name)

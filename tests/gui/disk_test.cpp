@@ -149,13 +149,18 @@ TEST(EditorOnDisk, ANewerFileIsForReadingOnly) {
   const QString path = editor.folder.filePath("newer.kg.json");
   QFile file(path);
   ASSERT_TRUE(file.open(QIODevice::WriteOnly));
-  file.write("{\"format\": \"kinegraph\", \"schema\": 99, \"nodes\": {}}\n");
+  file.write(R"({"format": "kinegraph", "schema": 99, "nodes": {"walk": {"type": "Gait", "gait": ["new"]}}})");
   file.close();
   ASSERT_TRUE(editor.window.open(path));
   EXPECT_TRUE(editor.session().is_read_only());
-  EXPECT_FALSE(editor.window.action("save")->isEnabled());
+  for (const char* edit : {"save", "run", "add", "arrange", "paste"})
+    EXPECT_FALSE(editor.window.action(edit)->isEnabled()) << edit;
+  EXPECT_NE(editor.canvas().scene().node("walk"), nullptr) << "what is understood is shown";
   editor.add("gait");
-  EXPECT_TRUE(editor.document().nodes.empty());
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_A, Qt::ControlModifier);
+  editor.key(Qt::Key_Delete);
+  EXPECT_EQ(editor.document().nodes.size(), 1u);
 }
 
 TEST(EditorOnDisk, WhoNeverRestsIsAutosavedToo) {
