@@ -31,11 +31,20 @@ Json unit_param(const Program& program, const char* type, const std::string& tex
   }
 }
 
-// The other formats' lengths are metres, whatever is asked for.
+// Lengths would be metres, whatever is asked for.
 void refuse_unit_of_format(const Json& unit, const ConvertArguments& arguments) {
   const std::string format = write_format_of(arguments.out);
-  const bool has_unit = format.empty() || format == "bvh" || format == "c3d" || format == "trc";
-  if (arguments.out_unit.empty() || has_unit || unit_from_param(unit, {0, ""}).metres == 1) return;
+  if (arguments.out_unit.empty() || format.empty() || format == "bvh") return;
+  const LengthUnit wanted = unit_from_param(unit, {0, "source"});
+  if (format == "c3d" || format == "trc") {
+    if (!wanted.name.empty()) return;
+    throw UsageError(
+        Diagnostic(error("no-unit", fmt::format("--out-unit {}: files of the format {} name their unit, "
+                                                "and this one has no name",
+                                                arguments.out_unit, format))
+                       .hinting("name one: m, cm, mm, in, cmu; or write bvh, which says none")));
+  }
+  if (wanted.metres == 1) return;
   throw UsageError(
       Diagnostic(error("no-unit", fmt::format("--out-unit {}: lengths in files of the format {} are metres",
                                               arguments.out_unit, format))
