@@ -90,12 +90,10 @@ int convert_command(const Program& program, const ConvertArguments& arguments) {
       problem.param.clear();
       problem.file = arguments.out;
     }
-    problem.hint = hint_without_nodes(std::move(problem.hint), {"unit"});
     throw Failure(as_typed(std::move(problem), in, arguments.in));
   }
   for (Diagnostic one : work.reported) {
     if (one.file.empty()) one.file = arguments.in;
-    one.hint = hint_without_nodes(std::move(one.hint), {"unit"});
     program.terminal.say(one);
   }
   try {

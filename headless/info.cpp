@@ -15,14 +15,12 @@ int info_command(const Program& program, const InfoArguments& arguments) {
     ReadOptions as_it_is;
     as_it_is.max_gap = 0;
     const MotionFile file = read_motion_file(path, as_it_is, files, work);
-    FileFacts facts = facts_of(file, path, files, work.reported, work);
-    for (Diagnostic& one : facts.told) one.hint = hint_without_nodes(std::move(one.hint));
+    const FileFacts facts = facts_of(file, path, files, work.reported, work);
     program.terminal.result(arguments.json ? indented(facts_json(file, facts, arguments.file))
                                            : facts_text(file, facts, arguments.file));
   } catch (const Failure& failure) {
     Diagnostic problem = as_typed(failure.diagnostic(), path, arguments.file);
     if (problem.file.empty()) problem.file = arguments.file;
-    problem.hint = hint_without_nodes(std::move(problem.hint));
     throw Failure(problem);
   }
   return exit_code::done;

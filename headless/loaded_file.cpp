@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 namespace kinegraph {
@@ -27,29 +26,6 @@ Diagnostic as_typed(Diagnostic problem, const std::string& path, const std::stri
   return problem;
 }
 
-std::string hint_without_nodes(std::string hint, const std::vector<std::string>& options) {
-  const auto replace = [&](std::string_view from, const std::string& to) {
-    const std::size_t at = hint.find(from);
-    if (at == std::string::npos) return false;
-    hint.replace(at, from.size(), to);
-    return true;
-  };
-  if (replace("set format or another ending", "give it another ending") ||
-      replace("set format, or give it that ending", "give it that ending; in a graph: set Load's format") ||
-      replace("name the .asf in skeleton",
-              "put it beside the .amc; in a graph: name it in Load's skeleton") ||
-      replace("raise max_gap, or choose a range", "in a graph: raise Load's max_gap, or choose a range"))
-    return hint;
-  for (const char* name : {"rest_frame", "clip", "unit", "format"}) {
-    if (!hint.starts_with(fmt::format("set {}", name))) continue;
-    const bool has_it = std::find(options.begin(), options.end(), name) != options.end();
-    replace(fmt::format("set {}", name),
-            fmt::format(fmt::runtime(has_it ? "set --{}" : "in a graph: set Load's {}"), name));
-    break;
-  }
-  return hint;
-}
-
 LoadedFile load_file(Session& session, const Program& program, const std::string& port) {
   std::vector<std::string> ports{port};
   if (port.empty()) {
@@ -65,7 +41,6 @@ LoadedFile load_file(Session& session, const Program& program, const std::string
       for (auto note : said) {
         if (note.severity == Severity::info) continue;  // `kinegraph info` tells those
         note.node.clear();
-        note.hint = hint_without_nodes(std::move(note.hint));
         if (note.file.empty()) note.file = session.opened().shown;
         program.terminal.say(note);
       }
@@ -77,7 +52,6 @@ LoadedFile load_file(Session& session, const Program& program, const std::string
     if (problem.severity == Severity::error) {
       Diagnostic said = problem;
       said.node.clear();
-      said.hint = hint_without_nodes(std::move(said.hint));
       if (said.file.empty()) said.file = session.opened().shown;
       throw Failure(said);
     }

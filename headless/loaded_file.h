@@ -2,7 +2,6 @@
 // exactly as a graph would.
 #pragma once
 #include <string>
-#include <vector>
 
 #include "headless/session.h"
 
@@ -21,9 +20,5 @@ LoadedFile load_file(Session& session, const Program& program, const std::string
 
 // A problem with the file at `path` in the words of whoever asked for it as `typed`.
 Diagnostic as_typed(Diagnostic problem, const std::string& path, const std::string& typed);
-
-// A hint that speaks of settings of a Load or an Export, for a command that has no nodes: what can be done
-// there, and in a graph. `options`: those of Load's parameters that the command has as --NAME.
-std::string hint_without_nodes(std::string hint, const std::vector<std::string>& options = {});
 
 }  // namespace kinegraph

@@ -39,7 +39,7 @@ LengthUnit find_unit(const AcclaimSkeleton& file, UpAxis up, const ReadOptions& 
   work.report(
       info("unit-found", fmt::format("unit {}: the .asf says none, and the rest pose is {:.4g} units high",
                                      to_text(unit), height))
-          .hinting("set unit where that is wrong")
+          .hinting("where that is wrong, tell it by Load's unit or convert's --unit")
           .at_param("unit"));
   return unit;
 }
@@ -143,7 +143,7 @@ std::string find_asf(const std::string& amc_path, FileAccess& files) {
   throw Failure(error("missing-skeleton",
                       fmt::format("no .asf for {}: tried {}and the folder's only .asf, but it has {}", file,
                                   tried, in_folder.empty() ? "none" : fmt::format("{}", in_folder.size())))
-                    .hinting("name the .asf in skeleton")
+                    .hinting("put the .asf beside it, or name it by Load's skeleton")
                     .at_param("skeleton"));
 }
 

@@ -142,7 +142,7 @@ LengthUnit find_unit(const BvhHierarchy& file, UpAxis up, const std::vector<doub
   LengthUnit unit = unit_by_height(height);
   work.report(info("unit-found", fmt::format("unit {}: {}, {:.3g} m so", to_text(unit),
                                              fmt::format(fmt::runtime(is), height), height * unit.metres))
-                  .hinting("set unit where that is wrong")
+                  .hinting("where that is wrong, tell it by Load's unit or convert's --unit")
                   .at_param("unit"));
   return unit;
 }

@@ -2,8 +2,8 @@
 
 #include "nodes/files/analysis_file.h"
 #include "nodes/files/decimal.h"
-#include "nodes/files/reserve_like.h"
 #include "nodes/files/json_fields.h"
+#include "nodes/files/reserve_like.h"
 #include "nodes/motion/contacts.h"
 
 namespace kinegraph {

@@ -120,7 +120,7 @@ void tell_other_clips(const std::vector<tinygltf::Animation>& all, Work& work) {
   if (all.size() > shown) names += fmt::format(" and {} more", all.size() - shown);
   work.report(
       info("clips", fmt::format("the file has {} clips, of which the first is read: {}", all.size(), names))
-          .hinting("set clip")
+          .hinting("name one by Load's clip")
           .at_param("clip"));
 }
 

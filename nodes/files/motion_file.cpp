@@ -120,7 +120,7 @@ MotionFile read_motion_file(const std::string& path, const ReadOptions& options,
     format = reader_of(path, options, *bytes);
     if (!format)
       throw Failure(error("unknown-format", "neither its name nor its content tells the file's format")
-                        .hinting("set format; " + readable())
+                        .hinting("name it by Load's format; " + readable())
                         .at_param("format"));
     MotionFile file = format->read({path, *bytes, options, files}, work);
     file.format = format->key;
@@ -136,7 +136,8 @@ MotionFile read_motion_file(const std::string& path, const ReadOptions& options,
     Diagnostic problem = failure.diagnostic();
     const std::string begins = format_of_bytes(*bytes);
     if (format && !begins.empty() && begins != "json" && begins != format->key && problem.file.empty())
-      problem.hint = fmt::format("the file begins as {} does: set format, or give it that ending", begins);
+      problem.hint =
+          fmt::format("the file begins as {} does: give it that ending, or name it by Load's format", begins);
     if (problem.file.empty()) problem.file = path;
     throw Failure(problem);
   }
@@ -184,7 +185,7 @@ std::optional<Diagnostic> objection_to_writing(const std::string& path, std::str
     return error("unknown-format", only_read.empty()
                                        ? "the file's ending tells no format"
                                        : fmt::format("{} files are read, not written", only_read))
-        .hinting("set format or another ending; " + writable(ports))
+        .hinting("give it another ending, or name one by Export's format; " + writable(ports))
         .at_param("file");
   for (const std::string& port : ports)
     if (!holds(*writer, port))

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "nodes/files/decimal.h"
-#include "nodes/files/reserve_like.h"
 #include "nodes/files/json_fields.h"
 #include "nodes/files/points_units.h"
+#include "nodes/files/reserve_like.h"
 #include "nodes/files/text_lines.h"
 #include "nodes/files/text_place.h"
 
@@ -164,8 +164,8 @@ Points read_points_table(std::string_view text, const ReadOptions& options, Work
                         .hinting("resample the table, or leave out the column time and set rate"));
   }
   if (!columns.ours && !names_a_unit(options.unit))
-    work.report(
-        warning("unit-unknown", "a table doesn't tell its unit; it is taken as metres").hinting("set unit"));
+    work.report(warning("unit-unknown", "a table doesn't tell its unit; it is taken as metres")
+                    .hinting("tell it by Load's unit or convert's --unit"));
   return settled(std::move(points), unit_of_metres(1), UpAxis::y, options, work);
 }
 

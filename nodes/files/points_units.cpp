@@ -52,7 +52,7 @@ void report_long_gaps(const Points& points, std::size_t first_frame, Work& work)
                                       "frames {} to {}",
                                       samples, labels.size(), points.labels.size(), label_of_longest,
                                       first_frame + longest.first, first_frame + longest.last - 1))
-          .hinting("raise max_gap, or choose a range without gaps; gaps at an end are never filled")
+          .hinting("raise Load's max_gap, or choose a range without gaps; gaps at an end are never filled")
           .at_joint(label_of_longest)
           .at_frame(static_cast<std::int64_t>(longest.first)));
 }
@@ -101,7 +101,7 @@ LengthUnit unit_of_file(std::string_view name, const ReadOptions& options) {
   bool changed = false;
   throw Failure(error("unknown-unit", fmt::format("the file's unit \"{}\" is none that is known",
                                                   as_utf8(trimmed(name), changed)))
-                    .hinting("set unit")
+                    .hinting("tell it by Load's unit or convert's --unit")
                     .at_param("unit"));
 }
 

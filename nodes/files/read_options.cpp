@@ -31,7 +31,7 @@ FrameWindow frames_to_keep(const ReadOptions& options, std::size_t frames) {
     window.first = std::max<std::size_t>(window.first, 1);
     if (window.first >= window.last)
       throw Failure(error("bad-range", "no frame is left once the rest frame 0 is dropped")
-                        .hinting("set rest_frame to keep, or a longer range")
+                        .hinting("Load's rest_frame keep, or a longer range")
                         .at_param("rest_frame"));
   }
   return window;

@@ -39,7 +39,7 @@ bool starts_with_rest_frame(const Motion& motion) {
 void warn_about_rest_frame(const Motion& motion, std::size_t file_frame, Work& work) {
   if (file_frame == 0 && starts_with_rest_frame(motion))
     work.report(warning("rest-frame", "frame 0 looks like a T-pose put in front of the clip")
-                    .hinting("set rest_frame to drop")
+                    .hinting("Load's rest_frame drop leaves it out")
                     .at_param("rest_frame")
                     .at_frame(0));
 }

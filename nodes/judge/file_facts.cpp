@@ -174,7 +174,7 @@ std::optional<Diagnostic> odd_size(const FileFacts& facts) {
   return info("odd-size", fmt::format("the figure is {:.3g} m high, which is no person's size; taken as {} "
                                       "it would be {:.3g} m",
                                       height, to_text(other), height / facts.unit * other.metres))
-      .hinting("set unit where it is a person")
+      .hinting("where it is a person, tell it by Load's unit or convert's --unit")
       .at_param("unit");
 }
 

@@ -102,7 +102,7 @@ void check_whole(const Points& points) {
       throw Failure(
           error("missing-samples", fmt::format("{} is missing in frames {} to {}", points.labels[label],
                                                gaps[0].first, gaps[0].last - 1))
-              .hinting("raise max_gap of Load, or choose a range without gaps")
+              .hinting("raise Load's max_gap, or choose a range without gaps")
               .at_port("points")
               .at_joint(points.labels[label])
               .at_frame(static_cast<std::int64_t>(gaps[0].first)));

@@ -104,23 +104,24 @@ TEST_F(FileCommands, ConvertRefusesWhatItCannotDo) {
   EXPECT_EQ(run("convert clip.bvh", "2>&1").exit, 2);
 }
 
-TEST_F(FileCommands, HintsNameNoSettingsThatACommandHasNot) {
+TEST_F(FileCommands, HintsNameWhoseSettingsTheyMean) {
   std::ofstream(folder_ + "/none") << "no motion";
   for (const char* command :
        {"info none", "convert none out.bvh", "compare none none", "picture none -o p.svg"}) {
     const Ran ran = run(command, "2>&1");
     EXPECT_NE(ran.exit, 0) << command;
-    EXPECT_NE(ran.output.find("in a graph: set Load's format"), std::string::npos) << ran.output;
+    EXPECT_NE(ran.output.find("name it by Load's format"), std::string::npos) << ran.output;
   }
-  EXPECT_NE(run("info clip.bvh", "2>&1").output.find("in a graph: set Load's unit"), std::string::npos);
-  EXPECT_NE(run("convert clip.bvh out.bvh", "2>&1").output.find("set --unit"), std::string::npos);
+  for (const char* command : {"info clip.bvh", "convert clip.bvh out.bvh"})
+    EXPECT_NE(run(command, "2>&1").output.find("by Load's unit or convert's --unit"), std::string::npos)
+        << command;
   EXPECT_NE(run("convert clip.bvh out.xyz", "2>&1").output.find("(give it another ending"),
             std::string::npos);
   if (!std::filesystem::exists(mocap("gltf/Fox.glb"))) return;
   const Ran clips = run("convert " + mocap("gltf/Fox.glb") + " fox.bvh", "2>&1");
-  EXPECT_NE(clips.output.find("in a graph: set Load's clip"), std::string::npos) << clips.output;
+  EXPECT_NE(clips.output.find("by Load's clip"), std::string::npos) << clips.output;
   const Ran rest = run("convert " + mocap("cmu/bvh/08_01.bvh") + " out.bvh", "2>&1");
-  EXPECT_NE(rest.output.find("in a graph: set Load's rest_frame to drop"), std::string::npos) << rest.output;
+  EXPECT_NE(rest.output.find("Load's rest_frame drop leaves it out"), std::string::npos) << rest.output;
 }
 
 TEST_F(FileCommands, ConvertNeverWritesOntoWhatItReads) {
