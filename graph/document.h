@@ -45,11 +45,11 @@ struct Node {
   // above hold what could be understood of it (type, inputs), for drawing and dependency; this is what is
   // written back.
   std::optional<Json> missing;
-  bool older =
-      false;  // a known type's older version, read without migrating: kept in `missing` too, for writing only
+  // A known type's older version, read without migrating: kept in `missing` too, for writing only.
+  bool older = false;
   Place place;  // of its name
-  std::shared_ptr<const Nested>
-      nested;  // of a Graph node: its file, once open_nested() has read it; never saved
+  // Of a Graph node: its file, once open_nested() has read it; never saved.
+  std::shared_ptr<const Nested> nested;
 };
 
 // Names -> "node.param" or "node.port" targets. One target is written as a string, several as a list.

@@ -28,8 +28,8 @@ class OutputTypes {
  private:
   const Document& document_;
   const Registry& registry_;
-  std::map<std::string, std::optional<std::string>, std::less<>>
-      passed_;  // of nodes that pass on what they get
+  // Of nodes that pass on what they get.
+  std::map<std::string, std::optional<std::string>, std::less<>> passed_;
 };
 
 // What speaks against a link from `from` to the port, whatever is linked there now: "unknown-node",

@@ -17,8 +17,8 @@ struct Doubt {
   // markers).
   std::shared_ptr<const Document> other_side;
   std::vector<std::pair<int, int>> conflicts;
-  int torn_at =
-      0;  // the line from which the document holds both sides, since nobody can tell them apart; 0: none
+  // The line from which the document holds both sides, since nobody can tell them apart; 0: none.
+  int torn_at = 0;
 };
 
 // Leaves of the problems of a document with conflicts those that are its own; `of_other` are those of

@@ -18,9 +18,8 @@ bool is_text(std::string_view text);
 bool is_plain(std::string_view text);
 // The text as JSON can be read from it: with U+FFFD for each byte that isn't UTF-8 ("bad-utf8") and for each
 // control character inside a string, with a blank for such outside of strings and for blanks that JSON
-// doesn't know
-// ("bad-character"); the first of a kind is told in each line, and of a file that is UTF-16, that. Tabs
-// inside strings are left. Columns stay, bytes move.
+// doesn't know ("bad-character"); the first of a kind is told in each line, and of a file that is UTF-16,
+// that. Tabs inside strings are left. Columns stay, bytes move.
 std::string as_text(std::string_view text, Diagnostics& found);
 void append_utf8(std::string& text, unsigned code_point);
 // Whether a message speaks of a text in which a byte or character was replaced.

@@ -17,7 +17,8 @@ class AutosaveSlot {
 
   QString file() const { return file_of(number_); }
   bool is_first() const { return number_ == 0; }
-  // What ended sessions left, newest wish first: files of slots that nobody holds any more, and its own.
+  // What ended sessions left, the freshest of each slot first: files of slots that nobody holds any more, and
+  // its own.
   QStringList left_behind() const;
   // After an autosave's name: it was put aside, because a session goes on in its slot.
   static constexpr auto aside = ".found";

@@ -10,13 +10,13 @@
 #include <utility>
 
 #include "graph/nested.h"
+#include "gui/evaluation/described.h"
 #include "gui/evaluation/sound_part.h"
 #include "gui/evaluation/sum_up.h"
 
 namespace kinegraph {
 namespace {
 
-constexpr int figures_of_still = 5;
 // At what of older work is still wanted: of this thread's own time, and by the clock.
 constexpr double longest_look = 0.02, latest_look = 0.2;  // seconds
 constexpr std::size_t most_nodes_looked_at = 200;
@@ -33,24 +33,6 @@ NodeStatus::State state_named(std::string_view name) {
   if (name == "disabled") return State::disabled;
   if (name == "missing") return State::missing;
   return State::waiting;
-}
-
-// A node and all before it, as text.
-void describe(const Document& document, const std::string& name, std::set<std::string>& seen,
-              std::string& text) {
-  const auto node = document.nodes.find(name);
-  if (node == document.nodes.end() || !seen.insert(name).second) return;
-  text += name + compact(to_json(node->second));
-  for (const auto& [port, inputs] : node->second.inputs)
-    for (const Link& link : inputs.links) describe(document, link.node, seen, text);
-}
-
-std::string described(const Document& document, const std::string& name) {
-  std::set<std::string> seen;
-  std::string text;
-  describe(document, name, seen, text);
-  for (const auto& [variable, value] : document.variables) text += variable + compact(value);
-  return text;
 }
 
 // So that the window's thread always comes first: on Linux a nice value belongs to a thread.
@@ -103,6 +85,7 @@ Evaluation::Evaluation(const Registry& registry, std::string cache_folder, QObje
                 ? nullptr
                 : std::make_unique<DiskCache>(std::move(cache_folder), std::uint64_t(4) << 30, registry)),
       evaluator_(registry, files_, &memory_, disk_.get()),
+      stills_(registry),
       thread_([this] { work(); }) {
   summing_.setSingleShot(true);
   summing_.setInterval(sum_up_after_ms);
@@ -356,11 +339,11 @@ bool Evaluation::gives_way(const Run& run) const {
 void Evaluation::deliver_stills(const Run& run, const std::vector<std::string>& nodes) {
   std::map<std::string, std::shared_ptr<const Still>> stills;
   if (nodes.empty() || gives_way(run)) return;
-  std::erase_if(stills_, [](const auto& made) { return made.second.first.expired(); });
+  stills_.forget_what_is_gone();
   const Evaluator::Known known(evaluator_, run.plan, nodes);
   for (const std::string& node : nodes) {
     if (gives_way(run)) break;  // what comes next makes those that are still missing
-    if (auto still = still_of(run.request, known, node)) stills[node] = std::move(still);
+    if (auto still = stills_.of(run.request.document, known, node)) stills[node] = std::move(still);
   }
   if (stills.empty()) return;
   QMetaObject::invokeMethod(
@@ -387,23 +370,6 @@ void Evaluation::find_outdated(const Document& document, Result& result) {
     if (run.state == NodeState::failed || run.state == NodeState::blocked)
       failed_as_[name] = described(document, name);
   for (const auto& [name, diagnostics] : result.left_out) failed_as_[name] = described(document, name);
-}
-
-std::shared_ptr<const Still> Evaluation::still_of(const EvaluationRequest& request,
-                                                  const Evaluator::Known& known, const std::string& node) {
-  const auto found = request.document.nodes.find(node);
-  const NodeType* type =
-      found == request.document.nodes.end() ? nullptr : known_type(registry_, found->second);
-  if (!type || type->role == Role::pass) return nullptr;
-  for (const OutputPort& port : type->outputs) {
-    if (!port.type.empty() && port.type != "Motion") continue;
-    const auto motion = std::dynamic_pointer_cast<const Motion>(known.value(node, port.name));
-    if (!motion) continue;
-    auto& made = stills_[motion.get()];
-    if (made.first.expired()) made = {motion, std::make_shared<Still>(make_still(*motion, figures_of_still))};
-    return made.second;
-  }
-  return nullptr;
 }
 
 void Evaluation::look_around(Run& run) try {
@@ -435,7 +401,8 @@ void Evaluation::look_around(Run& run) try {
   // What is on disk alone is read for its still.
   evaluator_.run(plan, cached, {.keep_going = true}, {}, &run.stop);
   for (const Target& target : cached)
-    if (auto still = still_of(request, known, target.node)) seen->stills[target.node] = std::move(still);
+    if (auto still = stills_.of(request.document, known, target.node))
+      seen->stills[target.node] = std::move(still);
   QMetaObject::invokeMethod(
       this,
       [this, seen] {

@@ -14,7 +14,7 @@
 
 #include "graph/document.h"
 #include "graph/evaluate/evaluator.h"
-#include "gui/evaluation/still.h"
+#include "gui/evaluation/still_cache.h"
 
 namespace kinegraph {
 
@@ -97,8 +97,6 @@ class Evaluation : public QObject {
   void look_around(Run& run);
   void deliver_stills(const Run& run, const std::vector<std::string>& nodes);
   bool gives_way(const Run& run) const;  // something newer waits
-  std::shared_ptr<const Still> still_of(const EvaluationRequest& request, const Evaluator::Known& known,
-                                        const std::string& node);
   void deliver(std::shared_ptr<Result> result);
   void find_outdated(const Document& document, Result& result);
   void take_stills(const std::map<std::string, std::shared_ptr<const Still>>& stills);
@@ -122,9 +120,9 @@ class Evaluation : public QObject {
   bool quitting_ = false, busy_ = false;
   std::uint64_t generation_ = 0, graph_ = 0;  // counts requests, and graphs forgotten
 
-  // Of the run that finishes: stills by what they were made of, kept while the value is known.
+  // Of the run that finishes.
   std::mutex finishing_;
-  std::map<const Value*, std::pair<std::weak_ptr<const Value>, std::shared_ptr<const Still>>> stills_;
+  StillCache stills_;
 
   // And of nodes that could not run, what they and all before them looked like then.
   std::map<std::string, std::string> failed_as_;

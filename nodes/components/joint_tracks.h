@@ -8,48 +8,46 @@
 
 namespace kinegraph {
 
-class JointPositions {
+// So many numbers a joint, each of them a series of its own.
+template <std::size_t N>
+class JointSeries {
  public:
-  JointPositions() = default;
-  JointPositions(std::size_t joints, std::size_t frames) : frames_(frames), data_(3 * joints * frames) {}
+  JointSeries() = default;
+  JointSeries(std::size_t joints, std::size_t frames) : frames_(frames), data_(N * joints * frames) {}
   std::size_t frames() const { return frames_; }
-  Vec3Track operator[](int joint) { return {axis(joint, 0), axis(joint, 1), axis(joint, 2)}; }
-  ConstVec3Track operator[](int joint) const { return {axis(joint, 0), axis(joint, 1), axis(joint, 2)}; }
+
+ protected:
+  std::span<double> series(int joint, std::size_t n) { return {data_.data() + at(joint, n), frames_}; }
+  std::span<const double> series(int joint, std::size_t n) const {
+    return {data_.data() + at(joint, n), frames_};
+  }
 
  private:
   std::size_t at(int joint, std::size_t n) const {
-    return (3 * static_cast<std::size_t>(joint) + n) * frames_;
-  }
-  std::span<double> axis(int joint, std::size_t n) { return {data_.data() + at(joint, n), frames_}; }
-  std::span<const double> axis(int joint, std::size_t n) const {
-    return {data_.data() + at(joint, n), frames_};
+    return (N * static_cast<std::size_t>(joint) + n) * frames_;
   }
   std::size_t frames_ = 0;
   std::vector<double> data_;
 };
 
-class JointRotations {
+class JointPositions : public JointSeries<3> {
  public:
-  JointRotations() = default;
-  JointRotations(std::size_t joints, std::size_t frames) : frames_(frames), data_(4 * joints * frames) {}
-  std::size_t frames() const { return frames_; }
+  using JointSeries::JointSeries;
+  Vec3Track operator[](int joint) { return {series(joint, 0), series(joint, 1), series(joint, 2)}; }
+  ConstVec3Track operator[](int joint) const {
+    return {series(joint, 0), series(joint, 1), series(joint, 2)};
+  }
+};
+
+class JointRotations : public JointSeries<4> {
+ public:
+  using JointSeries::JointSeries;
   QuatTrack operator[](int joint) {
-    return {number(joint, 0), number(joint, 1), number(joint, 2), number(joint, 3)};
+    return {series(joint, 0), series(joint, 1), series(joint, 2), series(joint, 3)};
   }
   ConstQuatTrack operator[](int joint) const {
-    return {number(joint, 0), number(joint, 1), number(joint, 2), number(joint, 3)};
+    return {series(joint, 0), series(joint, 1), series(joint, 2), series(joint, 3)};
   }
-
- private:
-  std::size_t at(int joint, std::size_t n) const {
-    return (4 * static_cast<std::size_t>(joint) + n) * frames_;
-  }
-  std::span<double> number(int joint, std::size_t n) { return {data_.data() + at(joint, n), frames_}; }
-  std::span<const double> number(int joint, std::size_t n) const {
-    return {data_.data() + at(joint, n), frames_};
-  }
-  std::size_t frames_ = 0;
-  std::vector<double> data_;
 };
 
 }  // namespace kinegraph

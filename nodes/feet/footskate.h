@@ -24,8 +24,8 @@ struct FootskateResult {
   double largest_residual = 0;  // m, in planted frames, that `stretch` did not allow
   std::size_t residual_frame = 0;
   int residual_joint = -1;
-  double largest_stretch =
-      0;  // |length / original - 1|; also while a foot swings, where it may pass `stretch`
+  // |length / original - 1|; also while a foot swings, where it may pass `stretch`.
+  double largest_stretch = 0;
   double largest_root_move = 0;  // m
 };
 

@@ -79,9 +79,8 @@ NodeType footskate_node() {
   type.param(
       "stretch", number(defaults.stretch).between(0, 0.9).slider(0, 0.15),
       "Most change of a leg's length while its foot is planted, as a part of it; 0 = rigid legs. As the "
-      "change "
-      "dies away without a jerk, a swinging leg may go a little beyond. CMU walks that drift at 0.15 m/s "
-      "need 0.047.");
+      "change dies away without a jerk, a swinging leg may go a little beyond. CMU walks that drift at 0.15 "
+      "m/s need 0.047.");
   type.param("knee_damping", number(defaults.knee_damping).between(0, 180).in("°").slider(0, 150),
              "Flexion from which on the knee bends freely; towards extension it keeps its angle, so that it "
              "can't pop.");

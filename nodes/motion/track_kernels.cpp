@@ -100,6 +100,12 @@ void MultiplyTracks(const ConstQuatTrack& a, bool inverse, const ConstQuatTrack&
   for (; t < frames; ++t) MultiplyAt(single, a, inverse, b, out, t);
 }
 
+template <class D>
+HWY_INLINE Three<D> Cross(D, const Three<D>& a, const Three<D>& b) {
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+
 // (a × b, |a||b| + a·b). Where the two are nearly opposite or nothing, the product has lost its digits: true.
 template <class D>
 HWY_INLINE bool SmallestAt(D d, const ConstVec3Track& old_from, const ConstVec3Track& old_to,
@@ -108,10 +114,8 @@ HWY_INLINE bool SmallestAt(D d, const ConstVec3Track& old_from, const ConstVec3T
   const Three<D> a = Between(d, old_from, old_to, t), b = Between(d, from, to, t);
   const auto size = hn::Mul(hn::Sqrt(Dot(d, a, a)), hn::Sqrt(Dot(d, b, b)));
   const auto w = hn::Add(size, Dot(d, a, b));
-  const Four<D> turned{hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-                       hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-                       hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)), w};
-  StoreUnit(d, turned, out, t);
+  const Three<D> axis = Cross(d, a, b);
+  StoreUnit(d, Four<D>{axis.x, axis.y, axis.z, w}, out, t);
   const auto tiny = hn::Lt(size, hn::Set(d, 1e-100)), huge = hn::Gt(size, hn::Set(d, 1e100));
   const auto opposite = hn::Lt(w, hn::Mul(hn::Set(d, 0.125), size));
   return !hn::AllFalse(d, hn::Or(opposite, hn::Or(tiny, huge)));
@@ -135,11 +139,6 @@ void SmallestTurns(const ConstVec3Track& old_from, const ConstVec3Track& old_to,
 }
 
 // The operators of rotation.h, their operations in the same order.
-template <class D>
-HWY_INLINE Three<D> Cross(D, const Three<D>& a, const Three<D>& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
 template <class D>
 HWY_INLINE Four<D> Product(D, const Four<D>& a, const Four<D>& b) {
   const auto sum = [](auto first, auto second, auto third, auto minus) {
