@@ -8,6 +8,8 @@
 #include <QSaveFile>
 #include <QStandardPaths>
 #include <QThreadPool>
+#include <algorithm>
+#include <vector>
 
 namespace kinegraph {
 namespace {
@@ -24,7 +26,7 @@ KnownFiles::KnownFiles() : store_(std::make_shared<Store>()) {
   store_->load();
 }
 
-// A line a file: size, time, digest, path.
+// A line a file: size, time, digest, path; those met last at the end.
 void KnownFiles::Store::load() {
   QFile file(path);
   if (!file.open(QIODevice::ReadOnly)) return;
@@ -32,14 +34,22 @@ void KnownFiles::Store::load() {
     const QString line = QString::fromUtf8(file.readLine()).chopped(1);
     const QStringList parts = line.split(' ');
     if (parts.size() < 4) continue;
-    files[line.section(' ', 3)] = {parts[0].toLongLong(), parts[1].toLongLong(), parts[2].toLatin1()};
+    files.insert({line.section(' ', 3),
+                  {parts[0].toLongLong(), parts[1].toLongLong(), parts[2].toLatin1(), ++last_met}});
   }
 }
 
-void KnownFiles::Store::save() const {
+void KnownFiles::Store::save() {
+  std::vector<std::pair<QString, File>> ordered(files.begin(), files.end());
+  std::sort(ordered.begin(), ordered.end(),
+            [](const auto& a, const auto& b) { return a.second.met < b.second.met; });
+  while (ordered.size() > most_files) {
+    files.erase(ordered.front().first);
+    ordered.erase(ordered.begin());
+  }
   QSaveFile file(path);
   if (!file.open(QIODevice::WriteOnly)) return;
-  for (const auto& [name, known] : files)
+  for (const auto& [name, known] : ordered)
     file.write(QString("%1 %2 %3 %4\n")
                    .arg(known.size)
                    .arg(known.time)
@@ -65,14 +75,15 @@ void KnownFiles::learn(const QStringList& paths) {
       {
         std::lock_guard lock(store->mutex);
         const auto known = store->files.find(path);
-        if (known != store->files.end() && known->second.size == info.size() && known->second.time == time)
+        if (known != store->files.end() && known->second.size == info.size() && known->second.time == time) {
+          known->second.met = ++store->last_met;
           continue;
+        }
       }
       const QByteArray digest = digest_of(path);
       if (digest.isEmpty()) continue;
       std::lock_guard lock(store->mutex);
-      if (store->files.size() < most_files || store->files.count(path))
-        store->files[path] = {info.size(), time, digest};
+      store->files[path] = {info.size(), time, digest, ++store->last_met};
       any = true;
     }
     std::lock_guard lock(store->mutex);

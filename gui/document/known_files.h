@@ -1,5 +1,5 @@
 // What the editor remembers of the files that its graphs read: size and content's digest, so that one that
-// was moved or renamed is found again. Kept per user; learned on a thread of the pool.
+// was moved or renamed is found again. Kept per user, the 5,000 met last; learned on a thread of the pool.
 #pragma once
 #include <QByteArray>
 #include <QString>
@@ -16,6 +16,7 @@ class KnownFiles {
   struct File {
     qint64 size = 0, time = 0;  // bytes; ms since 1970
     QByteArray digest;          // of the content, hex
+    qint64 met = 0;             // larger for files met later
   };
   KnownFiles();
   // Reads files that are there and changed since they were last learned. Returns at once.
@@ -29,9 +30,10 @@ class KnownFiles {
   struct Store {
     mutable std::mutex mutex;
     std::map<QString, File> files;
+    qint64 last_met = 0;
     QString path;
     void load();
-    void save() const;
+    void save();
   };
   std::shared_ptr<Store> store_;
 };

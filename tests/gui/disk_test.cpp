@@ -131,6 +131,31 @@ TEST(EditorOnDisk, AMovedAndRenamedClipIsFoundByItsContent) {
   EXPECT_EQ(editor.session().text(), before);
 }
 
+TEST(EditorOnDisk, OfManyFilesThoseMetLastAreKnown) {
+  QTemporaryDir folder;
+  const QString clip = folder.filePath("clip.bvh");
+  QFile file(clip);
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly) && file.write("HIERARCHY") > 0);
+  file.close();
+  const QString data = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation);
+  QDir().mkpath(data);
+  QFile store(QDir(data).filePath("known_files"));
+  ASSERT_TRUE(store.open(QIODevice::WriteOnly));
+  for (int i = 0; i < 5000; ++i) store.write(QString("9 1 ab /clips/%1.bvh\n").arg(i).toUtf8());
+  store.close();
+  {
+    KnownFiles known;
+    known.learn({clip});
+    ASSERT_TRUE(QTest::qWaitFor([&] { return known.find(clip).has_value(); }, 5000));
+    ASSERT_TRUE(QThreadPool::globalInstance()->waitForDone(5000));
+  }
+  const KnownFiles later;
+  EXPECT_TRUE(later.find(clip).has_value());
+  EXPECT_TRUE(later.find("/clips/4999.bvh").has_value());
+  EXPECT_FALSE(later.find("/clips/0.bvh").has_value());
+  store.remove();
+}
+
 TEST(EditorOnDisk, AMissingFileIsSaidWithAButtonThatFindsIt) {
   Editor editor;
   const QString path = editor.folder.filePath("main.kg.json");
