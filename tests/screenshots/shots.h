@@ -151,9 +151,10 @@ struct Shot {
 };
 
 // Into the folder, with names that end in `end`.
+void graph_pictures(const Theme& theme, const QDir& into, const QString& end);
 void viewer_pictures(const Theme& theme, const QDir& into, const QString& end);
-void state_pictures(const Theme& theme, const QDir& into, const QString& end);
-void less_common_pictures(const Theme& theme, const QDir& into, const QString& end);
-void menus_and_messages(const Theme& theme, const QDir& into, const QString& end);
+void dock_pictures(const Theme& theme, const QDir& into, const QString& end);
+void menu_pictures(const Theme& theme, const QDir& into, const QString& end);
+void message_pictures(const Theme& theme, const QDir& into, const QString& end);
 
 }  // namespace kinegraph::shots
