@@ -123,6 +123,27 @@ int write_drawing(const Program& program, const std::vector<Drawn>& all, const P
   return exit_code::done;
 }
 
+// The files' names without extension, after as many of their folders as tell them apart.
+std::vector<std::string> names_of(const std::vector<std::string>& files) {
+  std::vector<std::string> names;
+  for (const auto& file : files) {
+    const std::filesystem::path path = absolute_path(file);
+    std::string name = path.stem().string();
+    const auto is_shared = [&] {
+      return std::any_of(files.begin(), files.end(), [&](const std::string& other) {
+        const std::filesystem::path elsewhere = absolute_path(other);
+        return elsewhere != path &&
+               ("/" + (elsewhere.parent_path() / elsewhere.stem()).string()).ends_with("/" + name);
+      });
+    };
+    for (auto folder = path.parent_path(); folder.has_filename() && is_shared();
+         folder = folder.parent_path())
+      name = folder.filename().string() + "/" + name;
+    names.push_back(is_shared() ? path.filename().string() : name);  // walk.bvh beside walk.trc
+  }
+  return names;
+}
+
 int picture_of_files(const Program& program, const PictureArguments& arguments) {
   std::vector<std::string> files{arguments.run.graph};
   std::string port;
@@ -133,6 +154,7 @@ int picture_of_files(const Program& program, const PictureArguments& arguments) 
     else
       files.push_back(word);
   }
+  const std::vector<std::string> names = names_of(files);
   std::vector<Drawn> all;
   for (const auto& file : files) {
     Session session(program, arguments.run, graph_of_file(file));
@@ -141,8 +163,7 @@ int picture_of_files(const Program& program, const PictureArguments& arguments) 
     auto loaded = load_file(session, program, port);
     if (port.empty() && loaded.port == "motion")  // a file with a mesh shows it
       if (auto character = value_of(session, program, "load", "character")) loaded = {character, "character"};
-    all.push_back({std::filesystem::path(file).stem().string(), loaded.value,
-                   beside(session, program, {"load", loaded.port})});
+    all.push_back({names[all.size()], loaded.value, beside(session, program, {"load", loaded.port})});
   }
   std::string title;
   for (const auto& one : all) title += (title.empty() ? "" : ", ") + one.name;

@@ -172,6 +172,29 @@ void draw_skin(Canvas& canvas, const Row& row, const StripLayout& layout, const 
   draw_mesh(canvas, camera, mesh, layout.followed[frame], at);
 }
 
+// The time and number of each moment, or of every other, third… one where they stand too close for all.
+void draw_moment_labels(Canvas& canvas, const StripLayout& layout, double fps, double y) {
+  const auto time_at = [&](std::size_t i) {
+    return fmt::format("{:.2f} s", static_cast<double>(layout.frames[i]) / fps);
+  };
+  const auto has_room = [&](std::size_t step) {
+    for (std::size_t i = step; i < layout.frames.size(); i += step) {
+      const double gap = std::abs(layout.across[layout.frames[i]] - layout.across[layout.frames[i - step]]);
+      if (gap < text_width(time_at(i), 11) + 8) return false;
+    }
+    return true;
+  };
+  std::size_t step = 1;
+  while (!has_room(step)) ++step;
+  for (std::size_t i = 0; i < layout.frames.size(); i += step) {
+    const std::size_t frame = layout.frames[i];
+    canvas.text({layout.across[frame], y}, time_at(i),
+                {.size = 11, .color = theme::ink, .anchor = Anchor::middle});
+    canvas.text({layout.across[frame], y + 14}, fmt::format("{}", frame),
+                {.size = 9.5, .color = theme::faint, .anchor = Anchor::middle});
+  }
+}
+
 void draw_row(Canvas& canvas, const Row& row, const StripLayout& layout, const Camera& camera,
               double floor_y) {
   const Motion& motion = *row.asked->motion;
@@ -220,14 +243,7 @@ void draw_row(Canvas& canvas, const Row& row, const StripLayout& layout, const C
                     color);
   }
 
-  double label_y = floor_y + row.below * camera.scale() + 20;
-  for (std::size_t frame : layout.frames) {
-    canvas.text({layout.across[frame], label_y},
-                fmt::format("{:.2f} s", static_cast<double>(frame) / motion.fps()),
-                {.size = 11, .color = theme::ink, .anchor = Anchor::middle});
-    canvas.text({layout.across[frame], label_y + 14}, fmt::format("{}", frame),
-                {.size = 9.5, .color = theme::faint, .anchor = Anchor::middle});
-  }
+  draw_moment_labels(canvas, layout, motion.fps(), floor_y + row.below * camera.scale() + 20);
 }
 
 }  // namespace

@@ -89,6 +89,23 @@ TEST_F(Values, PicturesOfFilesNeedNoGraph) {
   EXPECT_EQ(run({"picture", "w.bvh", "-o", "w.svg", "--moments", "5"}).exit, 0);
   EXPECT_THAT(read("w.svg"), HasSubstr("360 frames"));
   EXPECT_EQ(run({"picture", "m.json", "-o", "m.svg"}).exit, 0);
+
+  // Moments too close for every one's time to be read tell some of them.
+  ASSERT_EQ(run({"picture", "w.bvh", "-o", "many.svg", "--moments", "60"}).exit, 0);
+  const std::string many = read("many.svg");
+  int times = 0;
+  for (std::size_t at = many.find(" s</text>"); at != std::string::npos; at = many.find(" s</text>", at + 1))
+    ++times;
+  EXPECT_GT(times, 8);
+  EXPECT_LT(times, 31);
+
+  // Files of one name are told apart by their folders.
+  for (const char* folder : {"a", "b"}) {
+    std::filesystem::create_directory(path(folder));
+    std::filesystem::copy_file(path("w.bvh"), path(folder) + "/w.bvh");
+  }
+  ASSERT_EQ(run({"picture", "a/w.bvh", "b/w.bvh", "-o", "both.svg"}).exit, 0);
+  EXPECT_NE(read("both.svg").find(">b/w<"), std::string::npos);
   EXPECT_THAT(read("m.svg"), HasSubstr("skate"));
   EXPECT_THAT(read("m.svg"), HasSubstr("0.0123 m/s"));
   EXPECT_THAT(read("m.svg"), HasSubstr("not measured"));
