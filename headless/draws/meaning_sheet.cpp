@@ -101,7 +101,7 @@ Canvas draw_meaning(const Metrics& metrics, const std::string& title) {
   const double column = std::max(172.0, step * static_cast<double>(regions) + 92);
   Canvas canvas(std::max(640.0, 2 * theme::margin + 28 + column * static_cast<double>(components.size())),
                 100);
-  const double height = 150;
+  const double height = 150, names = regions == 0 ? 50 : 86;  // below the bars
   double emotion = 1e-9, low = 0, high = 0;
   for (const Component& one : components) {
     if (one.emotion && one.emotion->value) emotion = std::max(emotion, *one.emotion->value);
@@ -124,19 +124,22 @@ Canvas draw_meaning(const Metrics& metrics, const std::string& title) {
   double x = theme::margin + 20;
   double bottom = top;
   for (const Component& one : components) {
-    canvas.fill(rectangle(x - 14, y + 4, column - 10, height + 200, 4), theme::panel);
+    canvas.fill(rectangle(x - 14, y + 4, column - 10, height + names + 114, 4), theme::panel);
     canvas.text({x, y + 24}, one.name, {.size = 15, .color = theme::ink, .bold = true});
     draw_bars(canvas, x + 6, top + 8, height, {one.emotion}, 0, emotion, 1, theme::right);
-    canvas.text({x + 18, top + height + 30}, "emotion",
-                {.size = 9.5, .color = theme::muted, .anchor = Anchor::end, .turned = -50});
+    if (regions == 0)
+      canvas.text({x - 4, top + height + 26}, "emotion", {.size = 9.5, .color = theme::muted});
+    else
+      canvas.text({x + 18, top + height + 30}, "emotion",
+                  {.size = 9.5, .color = theme::muted, .anchor = Anchor::end, .turned = -50});
     double at = x + 54;
-    draw_bars(canvas, at, top + 8, height, one.regions, low, high, shown.times, theme::left);
+    if (regions > 0) draw_bars(canvas, at, top + 8, height, one.regions, low, high, shown.times, theme::left);
     for (const Metric* region : one.regions) {
       canvas.text({at + 12, top + height + 30}, fitted(rest_after(region->name, "d_region."), 9.5, 60),
                   {.size = 9.5, .color = theme::muted, .anchor = Anchor::end, .turned = -50});
       at += step;
     }
-    double line = top + height + 86;
+    double line = top + height + names;
     const auto say = [&](const std::string& text, Color color) {
       canvas.text({x - 4, line}, fitted(text, 9.5, column - 26), {.size = 9.5, .color = color});
       line += 13;
@@ -161,7 +164,7 @@ Canvas draw_meaning(const Metrics& metrics, const std::string& title) {
     bottom = std::max(bottom, line);
     x += column;
   }
-  canvas.set_height(std::max(bottom, y + height + 204) + 14);
+  canvas.set_height(std::max(bottom, y + height + names + 118) + 14);
   return canvas;
 }
 
