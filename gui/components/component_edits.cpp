@@ -77,8 +77,8 @@ Json with_transfer(const Json& edits, const std::vector<int>& components, int fr
   return Json(std::move(all));
 }
 
-std::string told(const Json& edits) {
-  std::string words;
+std::vector<std::string> told(const Json& edits) {
+  std::vector<std::string> words;
   for (const Json& entry : entries_of(edits)) {
     const Json* op = entry.find("op");
     if (!op || !op->is_string()) continue;
@@ -94,7 +94,7 @@ std::string told(const Json& edits) {
           fmt::format("{} {} {:.3g}", component, number("value") < 0 ? "−" : "+", std::abs(number("value")));
     if (op->string() == "merge") one = "merge into " + text_of(entry.find("name"));
     if (op->string() == "transfer") one = fmt::format("transfer {:g} → {:g}", number("from"), number("to"));
-    words += (words.empty() ? "" : ",  ") + one;
+    words.push_back(one);
   }
   return words;
 }

@@ -14,7 +14,7 @@ Json with_amount(const Json& edits, const std::string& op, int component, double
 double amount_of(const Json& edits, const std::string& op, int component);
 Json with_merge(const Json& edits, const std::vector<int>& components);
 Json with_transfer(const Json& edits, const std::vector<int>& components, int from, int to);
-// One line that says what the edits do: "u2 × 0, u3 + 1.5".
-std::string told(const Json& edits);
+// What the edits do, in a few words each: "u2 × 0", "u3 + 1.5".
+std::vector<std::string> told(const Json& edits);
 
 }  // namespace kinegraph

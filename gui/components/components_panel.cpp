@@ -5,6 +5,7 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSlider>
@@ -45,11 +46,22 @@ ComponentsPanel::ComponentsPanel(Session& session, Evaluation& evaluation, Playb
   column->setContentsMargins(0, 0, 0, 0);
   pages_ = new QStackedWidget(this);
   column->addWidget(pages_);
-  empty_ = new QLabel(this);
+  auto* nothing = new QWidget(this);
+  auto* middle = new QVBoxLayout(nothing);
+  middle->setContentsMargins(24, 16, 24, 16);
+  middle->setSpacing(10);
+  empty_ = new QLabel(nothing);
   empty_->setAlignment(Qt::AlignCenter);
   empty_->setWordWrap(true);
-  empty_->setMargin(24);
-  pages_->addWidget(empty_);
+  progress_ = new QProgressBar(nothing);
+  progress_->setAccessibleName(tr("Progress"));
+  progress_->setTextVisible(false);
+  progress_->setFixedWidth(260);
+  middle->addStretch(1);
+  middle->addWidget(empty_);
+  middle->addWidget(progress_, 0, Qt::AlignHCenter);
+  middle->addStretch(1);
+  pages_->addWidget(nothing);
   auto* page = new QWidget(this);
   parts_ = new QBoxLayout(QBoxLayout::TopToBottom, page);
   parts_->setContentsMargins(0, 0, 0, 0);
@@ -281,31 +293,49 @@ void ComponentsPanel::take_values() {
     grid_->set_picture(picture);
     name_segments(picture->segments);
   } else {
-    const NodeStatus* status = components_.node.empty() ? nullptr : evaluation_.status(components_.node);
-    if (components_.node.empty()) {
-      empty_->setText(
-          tr("No components here. Link motions to an ICA: it finds the independent movements that they "
-             "are made of, and each appears here as a small figure."));
-    } else if (status && status->state == NodeStatus::State::incomplete) {
-      empty_->setText(tr("%1 isn't linked yet.\nLink motions to it: it finds the movements they are made of.")
-                          .arg(QString::fromStdString(components_.node)));
-    } else if (status && status->state == NodeStatus::State::failed && !status->diagnostics.empty()) {
-      empty_->setText(
-          tr("%1 failed.\n%2")
-              .arg(QString::fromStdString(components_.node), problem_text(status->diagnostics.front())));
-    } else if (status && status->state == NodeStatus::State::blocked) {
-      empty_->setText(tr("%1 waits for a node before it that failed or is not linked. Problems tells which.")
-                          .arg(QString::fromStdString(components_.node)));
-    } else if (status && status->state == NodeStatus::State::cancelled) {
-      empty_->setText(tr("%1 was cancelled.").arg(QString::fromStdString(components_.node)));
-    } else if (session_.is_read_only()) {
-      empty_->setText(tr("A graph of a newer Kinegraph can't be computed here."));
-    } else {
-      empty_->setText(tr("Finding the components of %1…").arg(QString::fromStdString(components_.node)));
-    }
+    tell_nothing();
   }
   pages_->setCurrentIndex(picture && !components_.node.empty() ? 1 : 0);
   update_controls();
+}
+
+// Why there are no figures, and what to do about it.
+void ComponentsPanel::tell_nothing() {
+  const QString name = QString::fromStdString(components_.node);
+  const NodeStatus* status = components_.node.empty() ? nullptr : evaluation_.status(components_.node);
+  const auto state = status ? status->state : NodeStatus::State::idle;
+  bool working = false;
+  if (components_.node.empty()) {
+    empty_->setText(
+        tr("No components here. Link motions to an ICA: it finds the independent movements that they "
+           "are made of, and each appears here as a small figure."));
+  } else if (state == NodeStatus::State::incomplete) {
+    empty_->setText(
+        tr("%1 isn't linked yet.\nLink motions to it: it finds the movements they are made of.").arg(name));
+  } else if (state == NodeStatus::State::failed && !status->diagnostics.empty()) {
+    const Diagnostic& problem = status->diagnostics.front();
+    const QString advice = advice_on(problem);
+    empty_->setText(tr("%1 failed.\n%2").arg(name, problem_text(problem)) +
+                    (advice.isEmpty() ? QString() : "\n" + advice));
+  } else if (state == NodeStatus::State::blocked) {
+    empty_->setText(
+        tr("%1 waits for a node before it that failed or is not linked. Problems tells which.").arg(name));
+  } else if (state == NodeStatus::State::cancelled) {
+    empty_->setText(tr("%1 was cancelled.").arg(name));
+  } else if (session_.is_read_only()) {
+    empty_->setText(tr("A graph of a newer Kinegraph can't be computed here."));
+  } else {
+    working = true;
+    const bool runs = state == NodeStatus::State::running;
+    // Until the node itself runs nobody knows how long it takes.
+    progress_->setRange(0, runs ? 100 : 0);
+    if (runs) progress_->setValue(static_cast<int>(std::lround(100 * status->progress)));
+    empty_->setText((runs ? tr("%1 looks for the movements that its clips are made of…")
+                     : state == NodeStatus::State::done ? tr("The figures of %1 are drawn…")
+                                                        : tr("%1 waits for the nodes before it…"))
+                        .arg(name));
+  }
+  progress_->setVisible(working);
 }
 
 // Segments are called after the nodes whose clips they are, in the order of the links.
@@ -395,10 +425,24 @@ void ComponentsPanel::tell_edits() {
   const QString where = edit_node_.empty() ? tr("a new ComponentEdit") : QString::fromStdString(edit_node_);
   QString words =
       any ? tr("%1: edits go to %2").arg(which, where) : tr("Click a figure; Ctrl+click takes several");
-  if (const std::string done = told(edits()); !done.empty())
-    words += QStringLiteral("   ·   ") + tr("so far: %1").arg(QString::fromStdString(done));
-  told_->setText(fontMetrics().elidedText(words, Qt::ElideRight, std::max(160, told_->width())));
-  told_->setToolTip(words);
+  QStringList done;
+  for (const std::string& one : told(edits())) done << QString::fromStdString(one);
+  told_->setText(fitting(words, done, std::max(160, told_->width())));
+  told_->setToolTip(done.isEmpty() ? words : words + "\n" + tr("So far:") + "\n• " + done.join("\n• "));
+}
+
+// With as many edits as there is room for, and how many more there are.
+QString ComponentsPanel::fitting(const QString& words, const QStringList& done, int room) const {
+  const auto fits = [&](const QString& text) { return fontMetrics().horizontalAdvance(text) <= room; };
+  for (qsizetype shown = done.size(); shown > 0; --shown) {
+    QString all = words + tr(" · so far: %1").arg(done.first(shown).join(", "));
+    if (shown < done.size()) all += tr(" and %1 more").arg(done.size() - shown);
+    if (fits(all)) return all;
+  }
+  const QString counted =
+      words + (done.size() == 1 ? tr(" · 1 edit so far") : tr(" · %1 edits so far").arg(done.size()));
+  if (!done.isEmpty() && fits(counted)) return counted;
+  return fontMetrics().elidedText(words, Qt::ElideRight, room);
 }
 
 void ComponentsPanel::update_controls() {

@@ -18,6 +18,7 @@ class QBoxLayout;
 class QComboBox;
 class QGridLayout;
 class QLabel;
+class QProgressBar;
 class QPushButton;
 class QScrollArea;
 class QSlider;
@@ -57,6 +58,8 @@ class ComponentsPanel : public QWidget {
   void take_values();
   void update_controls();
   void tell_edits();
+  void tell_nothing();
+  QString fitting(const QString& words, const QStringList& done, int room) const;
   Json edits() const;
   // Puts `edits` into the ComponentEdit node, as one step with the node where that has to be added first.
   void set_edits(const Json& edits);
@@ -78,6 +81,7 @@ class ComponentsPanel : public QWidget {
   QScrollArea* controls_;
   QGridLayout* control_grid_;
   QStackedWidget* pages_ = nullptr;
+  QProgressBar* progress_ = nullptr;
   QLabel *empty_ = nullptr, *told_ = nullptr, *scale_label_ = nullptr, *translate_label_ = nullptr,
          *scale_value_ = nullptr, *translate_value_ = nullptr, *arrow_ = nullptr;
   ComponentsGrid* grid_ = nullptr;

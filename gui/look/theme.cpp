@@ -167,6 +167,7 @@ QPushButton:hover { border-color: %5; }
 QPushButton:default { background: %6; border-color: %6; }
 QPushButton:disabled { color: %7; }
 QLineEdit, QPlainTextEdit, QComboBox { background: %8; border: 1px solid %3; border-radius: 4px; padding: 3px 6px; selection-background-color: %6; }
+QComboBox > QLineEdit { border: none; padding: 0px; margin: 0px; background: transparent; }
 QComboBox::drop-down { border: none; width: 18px; }
 QComboBox::down-arrow { image: url(:/kinegraph/arrow_down.png); width: 10px; height: 10px; }
 QComboBox QAbstractItemView { background: %2; border: 1px solid %3; selection-background-color: %6; outline: none; }
@@ -177,7 +178,7 @@ QToolButton#row_menu:hover { color: %4; }
 QFileDialog QToolButton { padding: 3px; }
 QSplitter::handle { background: transparent; image: none; }
 QPushButton:default:disabled { background: %2; border-color: %3; }
-QLabel#faint { color: %7; }
+QLabel#faint, QLabel#unit { color: %7; }
 QLabel#param_help { color: %7; border-top: 1px solid %3; padding-top: 6px; }
 QLabel#node_state { background: %2; border-radius: 4px; padding: 6px 8px; }
 QMessageBox QLabel#qt_msgbox_label { font-weight: 600; min-width: 300px; }
@@ -194,6 +195,10 @@ QCheckBox { spacing: 6px; padding: 2px; border: 1px solid transparent; border-ra
 QCheckBox:disabled { color: %7; }
 QCheckBox:focus { border-color: %5; }
 QLineEdit:focus, QPlainTextEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QTreeView:focus, QListView:focus, QTableView:focus { border: 1px solid %5; }
+QLineEdit[mistake="true"], QComboBox[mistake="true"], QTableView[mistake="true"] { border: 1px solid %12; }
+QLineEdit[mistake="true"]:focus, QComboBox[mistake="true"]:focus, QTableView[mistake="true"]:focus { border: 2px solid %12; }
+QLineEdit[mistake="true"]:focus { padding: 2px 5px; }
+QLabel#param_mistake { color: %12; }
 QTextBrowser { background: %8; border: 1px solid transparent; }
 QTextBrowser:focus { border-color: %5; }
 QSlider { border: 1px solid transparent; border-radius: 4px; min-height: 20px; }

@@ -10,6 +10,7 @@
 
 #include "gui/panels/arithmetic.h"
 #include "gui/panels/param_field.h"
+#include "gui/panels/typed_words.h"
 
 namespace kinegraph {
 namespace {
@@ -53,12 +54,11 @@ class NumberField : public ParamField {
     if (slider_) line_->setFixedWidth(line_width);
     row->addWidget(line_, slider_ ? 0 : 1);
     auto* unit = new QLabel(QString::fromStdString(param.unit), this);
-    unit->setObjectName("faint");
-    if (slider_) unit->setMinimumWidth(30);
+    unit->setObjectName("unit");
     if (slider_ || !param.unit.empty()) row->addWidget(unit);
     setFocusProxy(line_);
     connect(line_, &QLineEdit::editingFinished, this, [this] {
-      if (line_->text() == shown_) return;
+      if (line_->text() == shown_) return void(emit corrected());
       QString why;
       if (const auto value = typed_value(type_, line_->text(), &why)) {
         emit edited(*value);
@@ -66,14 +66,13 @@ class NumberField : public ParamField {
         emit edited(Json(line_->text().toStdString()));
       } else {
         emit wrong(why);
-        line_->setText(shown_);
       }
     });
   }
 
   void show_value(const Json& value) override {
     showing_ = true;
-    shown_ = typed_text(value);
+    shown_ = typed_text(type_, value);
     line_->setText(shown_);
     line_->setCursorPosition(0);
     if (slider_) {
@@ -106,6 +105,7 @@ class NumberField : public ParamField {
       }
       if (key == Qt::Key_Escape) {
         line_->setText(shown_);
+        emit corrected();
         return true;
       }
     }
@@ -132,7 +132,7 @@ class NumberField : public ParamField {
   }
   void send(double value) {
     const Json json = value;
-    shown_ = typed_text(json);
+    shown_ = typed_text(type_, json);
     line_->setText(shown_);
     emit edited(json);
   }

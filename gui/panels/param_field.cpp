@@ -11,10 +11,10 @@
 #include <QToolButton>
 #include <QWheelEvent>
 
-#include "gui/document/problem_text.h"
 #include "gui/look/ask_file.h"
 #include "gui/panels/arithmetic.h"
 #include "gui/panels/text_field.h"
+#include "gui/panels/typed_words.h"
 
 namespace kinegraph {
 namespace {
@@ -76,8 +76,11 @@ class ChoiceField : public ParamField {
     connect(box_, &QComboBox::activated, this, [this] { send(); });
     if (also_number) connect(box_->lineEdit(), &QLineEdit::editingFinished, this, [this] { send(); });
   }
+  bool is_being_edited() const override {
+    return box_->isEditable() && box_->lineEdit()->hasFocus() && box_->currentText() != shown_;
+  }
   void show_value(const Json& value) override {
-    const QString text = typed_text(value);
+    const QString text = typed_text(type_, value);
     const int at = box_->findText(text);
     if (at >= 0)
       box_->setCurrentIndex(at);
@@ -90,17 +93,14 @@ class ChoiceField : public ParamField {
  private:
   void send() {
     const QString text = box_->currentText();
-    if (text == shown_) return;
-    QString why;
+    if (text == shown_) return void(emit corrected());
     Json value = text.toStdString();
     if (box_->findText(text) < 0)
       if (const auto number = calculated(text)) value = *number;
-    const Diagnostics problems = check(type_, value, type_.name);
-    if (has_error(problems)) {
-      emit wrong(QString::fromStdString(problems.front().message));
-      return;
-    }
-    emit edited(value);
+    if (has_error(check(type_, value, type_.name)) && !text.startsWith("${"))
+      emit wrong(tr("“%1” doesn't fit.").arg(text) + " " + what_fits(type_));
+    else
+      emit edited(value);
   }
   ParamType type_;
   Still<QComboBox>* box_;
@@ -113,6 +113,7 @@ class FileField : public TextField {
       : TextField(param, parent), context_(context) {
     line_->setPlaceholderText(param.kind == ParamType::Kind::open_file ? tr("no file")
                                                                        : tr("where to write"));
+    line_->set_elide(Qt::ElideMiddle);
     auto* button = new FolderButton(this);
     button->setAccessibleName(tr("Choose a file for %1").arg(QString::fromStdString(param.name)));
     button->setToolTip(tr("Choose a file"));
@@ -148,8 +149,8 @@ class RangeField : public ParamField {
   }
   void show_value(const Json& value) override {
     const bool pair = value.is_array() && value.array().size() == 2;
-    start_->setText(pair ? typed_text(value.array()[0]) : typed_text(value));
-    end_->setText(pair && !value.array()[1].is_null() ? typed_text(value.array()[1]) : QString());
+    start_->setText(typed_text(type_, pair ? value.array()[0] : value));
+    end_->setText(pair ? typed_text(type_, value.array()[1]) : QString());
     shown_ = start_->text() + ":" + end_->text();
   }
   bool is_being_edited() const override {
@@ -158,21 +159,25 @@ class RangeField : public ParamField {
 
  private:
   void send() {
-    if (start_->text() + ":" + end_->text() == shown_) return;
+    if (start_->text() + ":" + end_->text() == shown_) return void(emit corrected());
+    if (start_->text().startsWith("${")) return void(emit edited(Json(start_->text().toStdString())));
     const auto first =
         start_->text().trimmed().isEmpty() ? std::optional<double>(0) : calculated(start_->text());
     const bool open = end_->text().trimmed().isEmpty() || end_->text().trimmed() == "end";
     const auto last = open ? std::optional<double>(0) : calculated(end_->text());
     if (!first || !last) {
-      emit wrong(tr("A range is two frame numbers; an open end is left empty."));
+      emit wrong(
+          tr("“%1” is no frame's number. Wanted is the first frame and the one after the last; an open "
+             "end is left empty.")
+              .arg(first ? end_->text() : start_->text()));
       return;
     }
     const Json value = Json::Array{Json(*first), open ? Json() : Json(*last)};
-    const Diagnostics problems = check(type_, value, type_.name);
-    if (has_error(problems))
-      emit wrong(QString::fromStdString(problems.front().message));
-    else
+    QString why;
+    if (typed_value(type_, typed_text(type_, value), &why))
       emit edited(value);
+    else
+      emit wrong(why);
   }
   ParamType type_;
   QLineEdit *start_, *end_;
@@ -187,38 +192,13 @@ bool is_choice_or_number(const ParamType& type) {
 
 }  // namespace
 
-QString typed_text(const Json& value) {
-  if (value.is_string()) return QString::fromStdString(value.string());
-  if (value.is_number()) return QString::fromStdString(shortest_number(value.number()));
-  if (value.is_null()) return {};
-  return QString::fromStdString(compact(value));
-}
-
-std::optional<Json> typed_value(const ParamType& type, const QString& text, QString* why) {
-  using Kind = ParamType::Kind;
-  Json value;
-  if (type.kind == Kind::number || type.kind == Kind::integer) {
-    const auto number = calculated(text);
-    if (!number) {
-      *why = QObject::tr("“%1” is no number.").arg(text);
-      return {};
-    }
-    value = *number;
-  } else {
-    try {
-      value = parse_value(type, text.toStdString());
-    } catch (const Failure& failure) {
-      *why = QString::fromStdString(failure.diagnostic().message);
-      return {};
-    }
+void ParamField::mark_wrong(bool wrong) {
+  for (QWidget* part : findChildren<QWidget*>(Qt::FindDirectChildrenOnly)) {
+    if (!qobject_cast<QLineEdit*>(part) && !qobject_cast<QComboBox*>(part)) continue;
+    part->setProperty("mistake", wrong);
+    part->style()->unpolish(part);
+    part->style()->polish(part);
   }
-  const Diagnostics problems = check(type, value, type.name);
-  if (has_error(problems)) {
-    const QString advice = advice_on(problems.front());
-    *why = problem_text(problems.front()) + (advice.isEmpty() ? "" : " " + advice);
-    return {};
-  }
-  return value;
 }
 
 ParamField* make_field(const Param& param, const FieldContext& context, QWidget* parent) {

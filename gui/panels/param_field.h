@@ -26,12 +26,17 @@ class ParamField : public QWidget {
   virtual void show_value(const Json& value) = 0;
   // The person is in the middle of typing: it must not be overwritten.
   virtual bool is_being_edited() const { return false; }
+  // Gives up what is being typed: what comes next to be shown is another node's.
+  virtual void drop_typed() {}
+  // Marks what stands in it as not taken over, or no longer: the look, not the words.
+  virtual void mark_wrong(bool wrong);
 
  signals:
   void edited(const Json& value);
   void drag_started();
   void drag_ended();
-  void wrong(const QString& message);  // what was typed doesn't fit
+  void wrong(const QString& message);  // what was typed doesn't fit; it stays, to be corrected
+  void corrected();                    // what stands in it is what it showed again, or would fit
 };
 
 ParamField* make_field(const Param& param, const FieldContext& context, QWidget* parent);
@@ -39,9 +44,5 @@ ParamField* make_field(const Param& param, const FieldContext& context, QWidget*
 ParamField* make_number_field(const Param& param, QWidget* parent);
 ParamField* make_pattern_field(const Param& param, const FieldContext& context, QWidget* parent);
 ParamField* make_table_field(const Param& param, const FieldContext& context, QWidget* parent);
-
-// A value as it is typed, and back; nothing where it doesn't fit (`why` says).
-QString typed_text(const Json& value);
-std::optional<Json> typed_value(const ParamType& type, const QString& text, QString* why);
 
 }  // namespace kinegraph

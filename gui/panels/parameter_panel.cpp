@@ -4,8 +4,8 @@
 #include <QComboBox>
 #include <QEvent>
 #include <QGridLayout>
+#include <QKeyEvent>
 #include <QLabel>
-#include <QLineEdit>
 #include <QMenu>
 #include <QScrollArea>
 #include <QStackedLayout>
@@ -17,6 +17,7 @@
 #include "graph/nested.h"
 #include "gui/canvas/node_painter.h"
 #include "gui/document/problem_text.h"
+#include "gui/panels/typed_words.h"
 #include "gui/viewing/looked_at.h"
 #include "nodes/motion/motion.h"
 
@@ -55,12 +56,12 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
   auto* head = new QGridLayout;
   head->setHorizontalSpacing(8);
   head->setVerticalSpacing(6);
-  name_ = new QLineEdit(some_);
+  name_ = new ElidedLine(some_);
   name_->setObjectName("node_name");
   name_->setAccessibleName(tr("Name of the node"));
   enabled_ = new QCheckBox(tr("Enabled"), some_);
   enabled_->setAccessibleName(tr("Enabled"));
-  note_ = new QLineEdit(some_);
+  note_ = new ElidedLine(some_);
   note_->setAccessibleName(tr("Note"));
   note_->setPlaceholderText(tr("Add a note…"));
   type_label_ = new QLabel(some_);
@@ -223,7 +224,12 @@ void ParameterPanel::build(const NodeType& known) {
     row.menu->setFixedWidth(24);
     row.menu->setAccessibleName(tr("More for %1").arg(QString::fromStdString(name)));
     row.menu->setToolTip(tr("Reset, publish, help"));
+    row.mistake = new MistakeLine(row.line);
+    grid->addWidget(row.mistake, 2, is_wide(param) ? 0 : 1, 1, is_wide(param) ? 3 : 2);
     if (is_wide(param)) {
+      grid->setContentsMargins(0, 0, 0, 6);
+      row.label->setMaximumWidth(QWIDGETSIZE_MAX);
+      row.label->setMinimumWidth(0);
       grid->addWidget(row.label, 0, 0);
       grid->addWidget(row.menu, 0, 2);
       grid->addWidget(row.field, 1, 0, 1, 3);
@@ -237,14 +243,20 @@ void ParameterPanel::build(const NodeType& known) {
     for (QWidget* child : row.line->findChildren<QWidget*>()) {
       child->installEventFilter(this);
       child->setProperty("help", QString::fromStdString(param.help));
+      child->setProperty("param", QString::fromStdString(name));
     }
-    connect(row.field, &ParamField::edited, this, [this, name](const Json& value) { set(name, value); });
+    connect(row.field, &ParamField::edited, this, [this, name, field = row.field](const Json& value) {
+      tell_mistake(name, {});
+      set(name, value);
+      // As it is kept, "1.5" for "3/2", though the keyboard is still there.
+      if (const auto now = rows_.find(name); now != rows_.end() && now->second.field == field)
+        field->show_value(now->second.value);
+    });
     connect(row.field, &ParamField::drag_started, &session_, &Session::begin_gesture);
     connect(row.field, &ParamField::drag_ended, &session_, &Session::end_gesture);
-    connect(row.field, &ParamField::wrong, this, [this, name](const QString& why) {
-      tell_help(QString("<span style='color:%1'>%2</span>")
-                    .arg(theme_->error.name(), (QString::fromStdString(name) + ": " + why).toHtmlEscaped()));
-    });
+    connect(row.field, &ParamField::wrong, this,
+            [this, name](const QString& why) { tell_mistake(name, why); });
+    connect(row.field, &ParamField::corrected, this, [this, name] { tell_mistake(name, {}); });
     QToolButton* button = row.menu;
     connect(button, &QToolButton::clicked, this, [this, name, button] { open_menu(name, button); });
     column->addWidget(row.line);
@@ -255,6 +267,11 @@ void ParameterPanel::build(const NodeType& known) {
         faint_label(tr("%1 has no parameters.").arg(QString::fromStdString(known.name)), inside));
   column->addStretch(1);
   scroll_->setWidget(inside);
+  // Numbers end on one line, whatever their units.
+  int unit_width = 30;
+  const QList<QLabel*> units = inside->findChildren<QLabel*>("unit");
+  for (const QLabel* unit : units) unit_width = std::max(unit_width, unit->sizeHint().width());
+  for (QLabel* unit : units) unit->setFixedWidth(unit_width);
   // Tab goes on from the note through the rows: widgets that come later would stand behind all other docks.
   QWidget* before = note_;
   for (QWidget* child : inside->findChildren<QWidget*>()) {
@@ -291,12 +308,25 @@ void ParameterPanel::refresh(bool another) {
     auto stored = node.params.find(name);
     const bool own = stored != node.params.end();
     const Json value = own ? stored->second : param->fallback.value_or(Json());
-    if (another || !row.field->is_being_edited()) row.field->show_value(value);
+    // What was typed and doesn't fit stays until it is corrected or the value becomes another.
+    const bool typed = row.field->is_being_edited() || (row.mistake->says_something() && value == row.value);
+    if (another) row.field->drop_typed();
+    if (another || !typed) {
+      tell_mistake(name, {});
+      row.field->show_value(value);
+    }
+    row.value = value;
     QFont font = row.label->font();
     font.setBold(own && !is_default(*param, value));
     row.label->setFont(font);
     const std::string published = published_as(name);
-    row.label->setText(QString::fromStdString(name) + (published.empty() ? "" : " ↗"));
+    row.name = QString::fromStdString(name) + (published.empty() ? "" : " ↗");
+    row.label->setText(is_wide(*param)
+                           ? row.name
+                           : QFontMetrics(font).elidedText(row.name, Qt::ElideRight, row.label->width()));
+    row.label->setToolTip(row.label->text() == row.name
+                              ? QString::fromStdString(param->help)
+                              : row.name + "\n" + QString::fromStdString(param->help));
   }
   refresh_state();
 }
@@ -327,6 +357,42 @@ void ParameterPanel::refresh_state() {
     for (const Diagnostic& problem : status->diagnostics) say(problem);
   state_->setText(text);
   state_->setVisible(!text.isEmpty());
+  mark_problems();
+}
+
+// A value that the graph was saved with and that doesn't fit is marked where it stands as well.
+void ParameterPanel::mark_problems() {
+  std::set<std::string> wrong;
+  for (const Diagnostic& problem : session_.problems())
+    if (problem.node == node_ && problem.severity == Severity::error)
+      wrong.insert(problem.param.substr(0, problem.param.find_first_of(".[")));
+  for (auto& [name, row] : rows_) row.field->mark_wrong(row.mistake->says_something() || wrong.count(name));
+}
+
+void ParameterPanel::tell_mistake(const std::string& param, const QString& why) {
+  const auto found = rows_.find(param);
+  if (found == rows_.end()) return;
+  Row& row = found->second;
+  const bool news = row.mistake->says_something() != !why.isEmpty();
+  row.mistake->say(why);
+  row.field->setAccessibleDescription(why);
+  if (news) mark_problems();
+  if (why.isEmpty()) return;
+  row.line->updateGeometry();
+  scroll_->widget()->layout()->activate();
+  scroll_->ensureWidgetVisible(row.mistake, 0, 10);
+}
+
+// Escape: what stands there is the value again. False where it is already.
+bool ParameterPanel::give_up(const QString& param) {
+  const auto found = rows_.find(param.toStdString());
+  if (found == rows_.end()) return false;
+  Row& row = found->second;
+  if (!row.mistake->says_something() && !row.field->is_being_edited()) return false;
+  row.field->drop_typed();
+  row.field->show_value(row.value);
+  tell_mistake(found->first, {});
+  return true;
 }
 
 void ParameterPanel::set(const std::string& param, const Json& value) {
@@ -375,9 +441,10 @@ void ParameterPanel::open_menu(const std::string& param, QToolButton* button) {
   if (!description) return;
   QMenu menu(this);
   const auto& node = session_.document().nodes.at(node_);
+  const QString usual = fontMetrics().elidedText(
+      typed_text(*description, description->fallback.value_or(Json())), Qt::ElideRight, 200);
   QAction* reset = menu.addAction(
-      tr("Reset to default (%1)").arg(typed_text(description->fallback.value_or(Json())).left(30)), this,
-      [this, param] {
+      usual.isEmpty() ? tr("Reset to default") : tr("Reset to default (%1)").arg(usual), this, [this, param] {
         session_.perform([&](const Document& d, const Registry&) { return reset_param(d, node_, param); });
       });
   reset->setEnabled(node.params.count(param) > 0);
@@ -397,6 +464,9 @@ void ParameterPanel::open_menu(const std::string& param, QToolButton* button) {
 }
 
 bool ParameterPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::KeyPress && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape &&
+      give_up(watched->property("param").toString()))
+    return true;
   if (event->type() == QEvent::FocusIn || event->type() == QEvent::Enter) {
     if (const QVariant help = watched->property("help"); help.isValid()) {
       tell_help(help.toString().toHtmlEscaped());

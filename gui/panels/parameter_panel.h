@@ -6,13 +6,14 @@
 
 #include "gui/document/session.h"
 #include "gui/evaluation/evaluation.h"
+#include "gui/look/elided_line.h"
 #include "gui/look/theme.h"
+#include "gui/panels/mistake_line.h"
 #include "gui/panels/param_field.h"
 
 class QCheckBox;
 class QFormLayout;
 class QLabel;
-class QLineEdit;
 class QScrollArea;
 class QToolButton;
 
@@ -34,6 +35,9 @@ class ParameterPanel : public QWidget {
     QLabel* label = nullptr;
     QToolButton* menu = nullptr;
     QWidget* line = nullptr;
+    MistakeLine* mistake = nullptr;
+    QString name;  // and whether it is published, as the label says where it has room
+    Json value;    // shown
   };
   void show_node();
   void build(const NodeType& type);
@@ -41,6 +45,9 @@ class ParameterPanel : public QWidget {
   void refresh_state();
   int help_height() const;
   void tell_help(const QString& text);
+  void tell_mistake(const std::string& param, const QString& why);  // empty: there is none any more
+  void mark_problems();
+  bool give_up(const QString& param);
   void open_menu(const std::string& param, QToolButton* button);
   void set(const std::string& param, const Json& value);
   void publish(const std::string& param, bool on);
@@ -57,10 +64,10 @@ class ParameterPanel : public QWidget {
   std::map<std::string, Row> rows_;
   QWidget* none_;
   QWidget* some_;
-  QLineEdit* name_;
+  ElidedLine* name_;
   QLabel* type_label_;
   QCheckBox* enabled_;
-  QLineEdit* note_;
+  ElidedLine* note_;
   QLabel* state_;
   QScrollArea* scroll_;
   QLabel* help_;

@@ -4,20 +4,26 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QScrollBar>
+#include <QStyle>
 #include <QStyledItemDelegate>
 #include <QTableWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <numeric>
 #include <set>
+#include <utility>
 
+#include "gui/document/problem_text.h"
 #include "gui/panels/param_field.h"
+#include "gui/panels/typed_words.h"
 #include "gui/panels/variants.h"
 
 namespace kinegraph {
 namespace {
 
-constexpr int most_rows_seen = 6;
+constexpr int most_rows_seen = 10, least_column = 56;
 
 class ChoiceDelegate : public QStyledItemDelegate {
  public:
@@ -28,7 +34,7 @@ class ChoiceDelegate : public QStyledItemDelegate {
     const ParamType& type = columns_[std::size_t(index.column())];
     QStringList choices;
     for (const ParamType::Choice& choice : type.choices) choices << QString::fromStdString(choice.key);
-    if (type.kind == ParamType::Kind::boolean) choices = {"true", "false"};
+    if (type.kind == ParamType::Kind::boolean) choices = {QObject::tr("yes"), QObject::tr("no")};
     if (choices.isEmpty()) return QStyledItemDelegate::createEditor(parent, option, index);
     auto* box = new QComboBox(parent);
     box->addItems(choices);
@@ -65,10 +71,14 @@ class TableField : public ParamField {
     QStringList titles;
     if (by_name_) {
       columns_ = {text(""), element};
-      titles << tr("joints") << tr("value");
+      if (element.kind == Kind::pattern)
+        titles << tr("name") << tr("joints");
+      else
+        titles << tr("joints") << tr("value");
     } else if (objects_) {
       columns_ = element.parts;
-      for (const ParamType& field : element.parts) titles << QString::fromStdString(field.name);
+      for (const ParamType& field : element.parts)
+        titles << QString::fromStdString(field.unit.empty() ? field.name : field.name + " " + field.unit);
     } else if (has_variants(element)) {
       variants_ = element;
       columns_ = {choice_of_variants(element), text("")};
@@ -85,10 +95,9 @@ class TableField : public ParamField {
     table_->setShowGrid(false);
     table_->horizontalHeader()->setHighlightSections(false);
     table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 10);
+    table_->verticalHeader()->setMinimumSectionSize(fontMetrics().height() + 10);
     table_->horizontalHeader()->setVisible(!titles.isEmpty());
-    table_->horizontalHeader()->setSectionResizeMode(columns_.size() > 4 ? QHeaderView::ResizeToContents
-                                                                         : QHeaderView::Stretch);
-    if (variants_) table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+    table_->horizontalHeader()->setMinimumSectionSize(least_column);
     table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setTabKeyNavigation(false);
@@ -114,13 +123,16 @@ class TableField : public ParamField {
       button->setAccessibleName(tr("%1: %2").arg(QString::fromStdString(type_.name), what));
       connect(button, &QToolButton::clicked, this, act);
       row->addWidget(button);
+      return button;
     };
     tool(tr("Add"), tr("add a row"), [this] { add_row(); });
-    tool(tr("Remove"), tr("remove the chosen row"), [this] { remove_row(); });
+    remove_ = tool(tr("Remove"), tr("remove the chosen row"), [this] { remove_row(); });
     if (!by_name_) {
-      tool(tr("Up"), tr("move the chosen row up"), [this] { move_row(-1); });
-      tool(tr("Down"), tr("move the chosen row down"), [this] { move_row(1); });
+      up_ = tool(tr("Up"), tr("move the chosen row up"), [this] { move_row(-1); });
+      down_ = tool(tr("Down"), tr("move the chosen row down"), [this] { move_row(1); });
     }
+    connect(table_, &QTableWidget::currentCellChanged, this, &TableField::enable_tools);
+    enable_tools();
     row->addStretch(1);
     column->addLayout(row);
     setFocusProxy(table_);
@@ -132,7 +144,7 @@ class TableField : public ParamField {
 
   void show_value(const Json& value) override {
     // What was typed here stands in its cells already; filling them anew would take the editor away.
-    if (value == value_ && table_->rowCount() > 0) return;
+    if (value == value_ && table_->rowCount() > 0) return fit();
     showing_ = true;
     value_ = value;
     if (by_name_ ? !value.is_object() : !value.is_array())
@@ -141,6 +153,16 @@ class TableField : public ParamField {
     showing_ = false;
   }
   bool is_being_edited() const override { return adding_; }
+  void drop_typed() override {
+    adding_ = false;
+    value_ = Json();
+  }
+  void mark_wrong(bool wrong) override {
+    table_->setProperty("mistake", wrong);
+    table_->style()->unpolish(table_);
+    table_->style()->polish(table_);
+    if (!wrong) say_wrong(-1, 0, {});
+  }
 
  protected:
   // Only what is shown has its fonts and edges.
@@ -148,20 +170,29 @@ class TableField : public ParamField {
     ParamField::showEvent(event);
     fit();
   }
+  void resizeEvent(QResizeEvent* event) override {
+    ParamField::resizeEvent(event);
+    fit();
+  }
 
  private:
   void set_cell(int row, int column, const QString& text) {
-    table_->setItem(row, column, new QTableWidgetItem(text));
+    auto* item = new QTableWidgetItem(text);
+    item->setToolTip(text);
+    item->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    table_->setItem(row, column, item);
   }
 
   void fill() {
+    wrong_row_ = -1;
+    const int row_before = table_->currentRow(), column_before = table_->currentColumn();
     table_->setRowCount(0);
     if (by_name_) {
       for (const auto& [name, one] : value_.object()) {
         const int row = table_->rowCount();
         table_->insertRow(row);
         set_cell(row, 0, QString::fromStdString(name));
-        set_cell(row, 1, typed_text(one));
+        set_cell(row, 1, typed_text(columns_[1], one));
       }
     } else {
       for (const Json& one : value_.array()) {
@@ -170,30 +201,83 @@ class TableField : public ParamField {
         if (variants_) {
           set_cell(row, 0, variant_key(*variants_, one));
           set_cell(row, 1, variant_text(*variants_, one));
-          table_->item(row, 1)->setToolTip(table_->item(row, 1)->text());
           continue;
         }
         if (!objects_) {
-          set_cell(row, 0, typed_text(one));
+          set_cell(row, 0, typed_text(columns_[0], one));
           continue;
         }
         for (std::size_t i = 0; i < columns_.size(); ++i) {
           const Json* field = one.find(columns_[i].name);
-          set_cell(row, int(i), field ? typed_text(*field) : QString());
+          set_cell(row, int(i), field ? typed_text(columns_[i], *field) : QString());
         }
       }
     }
+    if (row_before >= 0 && table_->rowCount() > 0)
+      table_->setCurrentCell(std::min(row_before, table_->rowCount() - 1), column_before);
+    enable_tools();
     fit();
   }
 
+  // Columns as wide as what they hold, the widest narrower where there is no room for all, the last with what
+  // is left; rows as high as their wrapped words, and so many of them seen whole.
   void fit() {
-    const int rows = std::clamp(table_->rowCount(), 1, most_rows_seen);
-    table_->setFixedHeight(rows * table_->verticalHeader()->defaultSectionSize() +
-                           (table_->horizontalHeader()->isVisibleTo(table_)
-                                ? table_->horizontalHeader()->sizeHint().height()
-                                : 0) +
-                           4);
+    QHeaderView& across = *table_->horizontalHeader();
+    const int columns = table_->columnCount(),
+              room =
+                  width() - 2 * table_->frameWidth() -
+                  (table_->rowCount() > most_rows_seen ? table_->verticalScrollBar()->sizeHint().width() : 0);
+    std::vector<int> wide;
+    for (int c = 0; c < columns; ++c)
+      wide.push_back(std::max({least_column, across.isVisibleTo(table_) ? across.sectionSizeHint(c) : 0,
+                               static_cast<QAbstractItemView*>(table_)->sizeHintForColumn(c) + 4}));
+    int all = std::accumulate(wide.begin(), wide.end(), 0);
+    while (all > room) {
+      const auto widest = std::max_element(wide.begin(), wide.end());
+      const int second = [&] {
+        int most = least_column;
+        for (auto at = wide.begin(); at != wide.end(); ++at)
+          if (at != widest && *at < *widest) most = std::max(most, *at);
+        return most;
+      }();
+      const int less = std::max(1, std::min(all - room, *widest - second));
+      if (*widest - less < least_column) break;
+      *widest -= less;
+      all -= less;
+    }
+    if (all < room) wide.back() += room - all;
+    for (int c = 0; c < columns; ++c)
+      if (table_->columnWidth(c) != wide[std::size_t(c)]) table_->setColumnWidth(c, wide[std::size_t(c)]);
+    table_->resizeRowsToContents();
+    int high = across.isVisibleTo(table_) ? across.sizeHint().height() : 0;
+    for (int r = 0; r < std::min(table_->rowCount(), most_rows_seen); ++r) high += table_->rowHeight(r);
+    if (table_->rowCount() == 0) high += table_->verticalHeader()->defaultSectionSize();
+    if (all > room) high += table_->horizontalScrollBar()->sizeHint().height();
+    table_->setFixedHeight(high + 2 * table_->frameWidth());
     none_->setVisible(table_->rowCount() == 0);
+  }
+
+  // Marks the cell that doesn't fit, and no other.
+  void say_wrong(int row, int column, const QString& why) {
+    const bool before = std::exchange(showing_, true);
+    if (QTableWidgetItem* item = table_->item(wrong_row_, wrong_column_)) {
+      item->setData(Qt::ForegroundRole, {});
+      item->setIcon({});
+      item->setToolTip(item->text());
+    }
+    wrong_row_ = row;
+    wrong_column_ = column;
+    wrong_ = why;
+    if (QTableWidgetItem* item = table_->item(row, column)) {
+      item->setForeground(palette().color(QPalette::BrightText));
+      item->setIcon(style()->standardIcon(QStyle::SP_MessageBoxCritical));
+      item->setToolTip(why);
+    }
+    showing_ = before;
+    if (row >= 0) {
+      emit wrong(why);
+      fit();
+    }
   }
 
   QString cell(int row, int column) const {
@@ -226,6 +310,14 @@ class TableField : public ParamField {
     table_->editItem(table_->item(row, 0));
   }
 
+  // Those that would do something.
+  void enable_tools() {
+    const int row = table_->currentRow();
+    remove_->setEnabled(row >= 0);
+    if (up_) up_->setEnabled(row > 0 && !adding_);
+    if (down_) down_->setEnabled(row >= 0 && row + 1 < table_->rowCount() && !adding_);
+  }
+
   void remove_row() {
     const int row = table_->currentRow();
     if (row < 0) return;
@@ -255,6 +347,7 @@ class TableField : public ParamField {
   // A row is taken over once all of it fits; until then it says what is missing.
   void changed(int row, int column) {
     QString why;
+    int wrong_column = by_name_ || variants_ ? 1 : column;
     std::optional<Json> element;
     if (variants_) {
       const bool known = std::size_t(row) < value_.array().size();
@@ -273,11 +366,13 @@ class TableField : public ParamField {
         if (cell(row, int(i)).isEmpty()) {
           if (columns_[i].fallback) continue;
           why = tr("%1 is still missing.").arg(QString::fromStdString(columns_[i].name));
+          wrong_column = int(i);
           break;
         }
         const auto value = typed_value(columns_[i], cell(row, int(i)), &why);
         if (!value) {
           why = QString::fromStdString(columns_[i].name) + ": " + why;
+          wrong_column = int(i);
           break;
         }
         object[columns_[i].name] = *value;
@@ -287,10 +382,7 @@ class TableField : public ParamField {
       element = typed_value(columns_.back(), cell(row, int(columns_.size()) - 1), &why);
     }
     if (by_name_ && cell(row, 0).isEmpty()) return;
-    if (!element) {
-      emit wrong(why);
-      return;
-    }
+    if (!element) return say_wrong(row, wrong_column, why);
     Json next = value_;
     if (by_name_) {
       // A renamed row: its old name is the one that stands in no cell any more.
@@ -304,21 +396,28 @@ class TableField : public ParamField {
       next.array().push_back(*element);
     }
     const Diagnostics problems = check(type_, next, type_.name);
-    if (has_error(problems)) {
-      emit wrong(QString::fromStdString(problems.front().message));
-      return;
-    }
+    if (has_error(problems)) return say_wrong(row, column, problem_text(problems.front()));
     adding_ = false;
+    enable_tools();
     value_ = next;
+    const int still = wrong_row_ == row ? -1 : wrong_row_;
+    const QString still_why = wrong_;
+    const int still_column = wrong_column_;
     emit edited(next);
+    emit corrected();
+    if (still >= 0) say_wrong(still, still_column, still_why);
+    fit();
   }
 
   ParamType type_;
   QTableWidget* table_;
   QLabel* none_;
+  QToolButton *remove_ = nullptr, *up_ = nullptr, *down_ = nullptr;
   std::vector<ParamType> columns_;
   std::optional<ParamType> variants_;  // of a row: objects of several forms
   bool by_name_ = false, objects_ = false, showing_ = false, adding_ = false;
+  int wrong_row_ = -1, wrong_column_ = 0;  // the cell that doesn't fit, and why
+  QString wrong_;
   Json value_ = Json(Json::Array{});
 };
 

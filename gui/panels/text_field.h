@@ -1,8 +1,7 @@
 // A parameter as one line of text, taken over when it is finished. File and pattern fields add a button to
 // it.
 #pragma once
-#include <QLineEdit>
-
+#include "gui/look/elided_line.h"
 #include "gui/panels/param_field.h"
 
 class QHBoxLayout;
@@ -20,7 +19,7 @@ class TextField : public ParamField {
 
  protected:
   ParamType type_;
-  QLineEdit* line_;
+  ElidedLine* line_;
   QString shown_;  // what was shown last; the line may hold newer text
 };
 

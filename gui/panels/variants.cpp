@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "graph/diagnostic.h"
-#include "gui/panels/param_field.h"
+#include "gui/panels/typed_words.h"
 
 namespace kinegraph {
 namespace {
@@ -17,21 +17,9 @@ const ParamType* variant(const ParamType& type, const QString& key) {
   return nullptr;
 }
 
-// Where commas that stand in no brackets or quotes part it.
-QStringList parted(const QString& text) {
-  QStringList parts{QString()};
-  int depth = 0;
-  bool quoted = false;
-  for (const QChar c : text) {
-    if (c == '"') quoted = !quoted;
-    if (!quoted && (c == '[' || c == '{')) ++depth;
-    if (!quoted && (c == ']' || c == '}')) --depth;
-    if (c == ',' && depth == 0 && !quoted)
-      parts << QString();
-    else
-      parts.back() += c;
-  }
-  return parts;
+bool holds_list(const ParamType& type) {
+  return type.kind == Kind::list ||
+         (type.kind == Kind::either && std::any_of(type.parts.begin(), type.parts.end(), holds_list));
 }
 
 Json begin_of(const ParamType& type) {
@@ -85,13 +73,13 @@ QString variant_key(const ParamType& type, const Json& value) {
 
 QString variant_text(const ParamType& type, const Json& value) {
   const ParamType* form = variant(type, variant_key(type, value));
-  if (!form) return QString::fromStdString(compact(value));
+  if (!form) return typed_text(type, value);
   QStringList parts;
   for (std::size_t i = 1; i < form->parts.size(); ++i) {
     const ParamType& field = form->parts[i];
     const Json* own = value.find(field.name);
     if (!own || (field.fallback && *field.fallback == *own)) continue;
-    parts << QString::fromStdString(field.name) + " " + typed_text(*own);
+    parts << QString::fromStdString(field.name) + " " + typed_text(field, *own);
   }
   return parts.join(", ");
 }
@@ -104,20 +92,29 @@ std::optional<Json> variant_of(const ParamType& type, const QString& key, const 
   }
   Json::Object object;
   object[form->parts[0].name] = key.toStdString();
+  const auto field_of = [&](const QString& words) {
+    return std::find_if(form->parts.begin() + 1, form->parts.end(), [&](const ParamType& one) {
+      return QString::fromStdString(one.name) == words.section(' ', 0, 0);
+    });
+  };
+  QStringList said;
   for (const QString& part : parted(text)) {
     const QString words = part.trimmed();
-    if (words.isEmpty()) continue;
+    // What begins with no field's name goes on with the list before it.
+    if (!said.isEmpty() && field_of(words) == form->parts.end() && holds_list(*field_of(said.back())))
+      said.back() += ", " + words;
+    else if (!words.isEmpty())
+      said << words;
+    if (said.isEmpty() || field_of(said.back()) != form->parts.end()) continue;
+    QStringList names;
+    for (std::size_t i = 1; i < form->parts.size(); ++i) names << QString::fromStdString(form->parts[i].name);
+    *why =
+        QObject::tr("%1 has no “%2”; it has %3.").arg(key, said.back().section(' ', 0, 0), names.join(", "));
+    return {};
+  }
+  for (const QString& words : said) {
+    const auto field = field_of(words);
     const QString name = words.section(' ', 0, 0), rest = words.section(' ', 1).trimmed();
-    const auto field = std::find_if(form->parts.begin() + 1, form->parts.end(), [&](const ParamType& one) {
-      return QString::fromStdString(one.name) == name;
-    });
-    if (field == form->parts.end()) {
-      QStringList names;
-      for (std::size_t i = 1; i < form->parts.size(); ++i)
-        names << QString::fromStdString(form->parts[i].name);
-      *why = QObject::tr("%1 has no “%2”; it has %3.").arg(key, name, names.join(", "));
-      return {};
-    }
     const auto value = typed_value(*field, rest, why);
     if (!value) {
       *why = name + ": " + *why;

@@ -238,22 +238,36 @@ TEST(EditorMistakes, ADroppedFolderIsNoClip) {
 TEST(EditorMistakes, ANumberThatIsNoneOrTooLargeSaysWhatFits) {
   Files editor;
   ASSERT_TRUE(editor.open("a.kg.json"));
-  auto* help = editor.window.findChild<QLabel*>("param_help");
-  ASSERT_TRUE(help);
   QLineEdit& line = editor.line("param_speed");
+  auto* why = line.parentWidget()->parentWidget()->findChild<QLabel*>("param_mistake");
+  ASSERT_TRUE(why);
   for (const auto& [typed, said] : {std::pair{"=1/0", "no number"},
                                     {"banana", "no number"},
                                     {"-100000000", "Wanted is"},
                                     {"1e300", "Wanted is"}}) {
     editor.type_into(line, typed);
     editor.key(Qt::Key_Return);
-    EXPECT_TRUE(help->text().contains(said)) << typed << ": " << help->text().toStdString();
+    EXPECT_TRUE(why->isVisible());
+    EXPECT_TRUE(why->text().contains(said)) << typed << ": " << why->text().toStdString();
+    EXPECT_TRUE(why->text().contains("Wanted is a number")) << typed << ": " << why->text().toStdString();
+    EXPECT_TRUE(line.property("mistake").toBool()) << typed;
+    EXPECT_EQ(line.text(), typed) << "what was typed stays until it is corrected";
     EXPECT_EQ(editor.speed(), -1) << typed;
   }
+  // Escape gives it up.
+  editor.key(Qt::Key_Escape);
+  EXPECT_FALSE(why->isVisible()) << why->text().toStdString();
+  EXPECT_FALSE(line.property("mistake").toBool());
+  EXPECT_NE(line.text(), "1e300");
   EXPECT_FALSE(editor.session().is_modified());
+  editor.type_into(line, "banana");
+  editor.key(Qt::Key_Return);
+  EXPECT_TRUE(why->isVisible());
   editor.type_into(line, "=3/2");
   editor.key(Qt::Key_Return);
   EXPECT_EQ(editor.speed(), 1.5);
+  EXPECT_FALSE(why->isVisible());
+  EXPECT_FALSE(line.property("mistake").toBool());
 }
 
 }  // namespace

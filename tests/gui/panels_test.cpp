@@ -7,6 +7,7 @@
 #include "gui/canvas/fuzzy.h"
 #include "gui/document/problem_text.h"
 #include "gui/panels/arithmetic.h"
+#include "gui/panels/typed_words.h"
 #include "gui/panels/variants.h"
 #include "tests/gui/editor.h"
 
@@ -195,8 +196,66 @@ TEST(EditorVariants, AnEditIsAChoiceAndWordsAndBack) {
   EXPECT_FALSE(variant_of(type, "scale", "component 3, farctor 2", &why));
   EXPECT_TRUE(why.contains("factor")) << why.toStdString();
   // What both forms have stays when another is chosen.
+  EXPECT_EQ(
+      *variant_of(type, "merge", "name swing, terms 1 → 1, 2 → 0.5", &why),
+      Json(Json::Object{{"op", "merge"},
+                        {"name", "swing"},
+                        {"terms", Json(Json::Array{Json(Json::Array{1, 1}), Json(Json::Array{2, 0.5})})}}));
   EXPECT_EQ(fresh_variant_text(type, "translate", *variant_of(type, "scale", "component 3, factor 2", &why)),
             "component 3, value 1");
+}
+
+TEST(EditorWords, StructuredValuesAreReadAndTypedWithoutBrackets) {
+  const ParamType range_of = range();
+  const ParamType place = tuple({kinegraph::number(0), kinegraph::number(0), kinegraph::number(0)});
+  const ParamType pairs =
+      list(tuple({either({integer(1).between(1, 100), text("u1")}), kinegraph::number(1)}));
+  const ParamType some = either({integer(1).between(1, 100), list(integer(1).between(1, 100))});
+  const ParamType names = list(text(""));
+  const auto array = [](std::initializer_list<Json> all) { return Json(Json::Array(all)); };
+  const auto expect = [](const ParamType& type, const Json& value, const char* words,
+                         const std::vector<const char*>& also) {
+    EXPECT_EQ(typed_text(type, value), QString(words));
+    QString why;
+    EXPECT_EQ(typed_value(type, words, &why), value) << words << ": " << why.toStdString();
+    for (const char* text : also)
+      EXPECT_EQ(typed_value(type, text, &why), value) << text << ": " << why.toStdString();
+  };
+  expect(range_of, array({10, 50}), "10–50", {"10:50", "10 - 50", "10 to 50", "[10, 50]", "5*2–100/2"});
+  expect(range_of, array({10, Json()}), "10–end", {"10:", "10–", "10 to end"});
+  expect(place, array({0.45, 1.7, -0.1}), "0.45, 1.7, -0.1",
+         {"0.45 1.7 -0.1", "[0.45,1.7,-0.1]", "0.9/2, 1.7, -0.1"});
+  expect(pairs, array({array({1, 1}), array({"swing", 0.5})}), "1 → 1, swing → 0.5",
+         {"1->1, swing × 1/2", "1 1, swing .5"});
+  expect(some, array({1, 3}), "1, 3", {"[1,3]"});
+  expect(some, 4, "4", {});
+  expect(names, array({"u1", "joint:*Leg*"}), "u1, joint:*Leg*", {});
+  expect(names, array({"a, b", "c"}), "\"a, b\", c", {});
+  expect(boolean(true), true, "yes", {"true", "On"});
+  for (const auto& [type, text] : {std::pair{&range_of, "soon"},
+                                   {&range_of, "50–10"},
+                                   {&place, "1, 2"},
+                                   {&place, "1, 2, x"},
+                                   {&pairs, "1 → "},
+                                   {&some, "1, two"}}) {
+    QString why;
+    EXPECT_FALSE(typed_value(*type, text, &why)) << text;
+    EXPECT_FALSE(why.isEmpty()) << text;
+  }
+}
+
+TEST(EditorWords, EveryDefaultOfEveryNodeIsReadBackAsItIs) {
+  const Registry registry = all_nodes();
+  for (const std::string& name : registry.names())
+    for (const Param& param : registry.find(name)->params) {
+      QString why;
+      const Json value = param.fallback.value_or(Json());
+      if (value.is_string() && value.string().empty()) continue;
+      const auto again = typed_value(param, typed_text(param, value), &why);
+      if (param.kind == ParamType::Kind::list || param.kind == ParamType::Kind::table) continue;
+      ASSERT_TRUE(again) << name << "." << param.name << ": " << why.toStdString();
+      EXPECT_EQ(*again, value) << name << "." << param.name;
+    }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "gui/components/components_grid.h"
 #include "gui/timeline/timeline_tracks.h"
+#include "tests/screenshots/panels.h"
 #include "tests/screenshots/shots.h"
 
 namespace kinegraph::shots {
@@ -210,6 +211,8 @@ void fields(const Theme& theme, const QDir& into, const QString& end) {
 }  // namespace
 
 void dock_pictures(const Theme& theme, const QDir& into, const QString& end) {
+  panel_pictures(theme, into, end);
+  if (qEnvironmentVariableIsSet("ALL_NODES")) return;
   filled(theme, into, end);
   nothing_to_show(theme, into, end);
   blocked(theme, into, end);
