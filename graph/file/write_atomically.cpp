@@ -19,11 +19,34 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& path, const char* doing, int code) {
-  throw Failure(error("cannot-write", fmt::format("{}: {}: {}", path, doing, std::strerror(code)))
-                    .hinting(code == ENOSPC || code == EDQUOT    ? "make room on the disk"
-                             : code == ENOENT || code == ENOTDIR ? "there is no such folder"
-                             : code == ENAMETOOLONG              ? "give it a shorter name"
-                                                                 : "may this folder be written to?"));
+  const std::string folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path().string() : ".";
+  std::string found, hint;
+  switch (code) {
+    case ENOSPC:
+    case EDQUOT:
+      found = fmt::format("the disk of {} is full", folder);
+      hint = "make room on it and try again";
+      break;
+    case ENOENT:
+    case ENOTDIR:
+      found = fmt::format("the folder {} isn't there", folder);
+      hint = "make it again, or write elsewhere";
+      break;
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      found = fmt::format("the folder {} can't be written to", folder);
+      hint = "ask for the right to write there, or write elsewhere";
+      break;
+    case ENAMETOOLONG:
+      found = fmt::format("the name of {} is too long", path);
+      hint = "give it a shorter one";
+      break;
+    default:
+      found = fmt::format("{}: {}: {}", path, doing, std::strerror(code));
+      hint = "try again, or write elsewhere";
+  }
+  throw Failure(error("cannot-write", found).in_file(path).hinting(hint));
 }
 
 // The file that is really written: a symbolic link stays, what it names is replaced.

@@ -14,8 +14,8 @@ constexpr ActionRow rows[] = {
     {"open", "File", "&Open…", "Ctrl+O", "Opens a graph file"},
     {"save", "File", "&Save", "Ctrl+S", "Saves the graph", Where::window, true},
     {"save_as", "File", "Save &as…", "Ctrl+Shift+S", "Saves the graph under another name"},
-    {"relink", "File", "Find &missing files…", "Ctrl+Shift+R",
-     "Looks for files that the graph reads and that aren't there", Where::window, true},
+    {"relink", "File", "Find &missing files…", "Ctrl+Shift+R", "Looks for files that the graph reads",
+     Where::window, true},
     {"close_page", "File", "&Close this graph", "Ctrl+W", "Closes the page of this graph", Where::window,
      true},
     {"quit", "File", "&Quit", "Ctrl+Q", "Closes the editor"},
@@ -26,7 +26,7 @@ constexpr ActionRow rows[] = {
      true},
     {"copy", "Edit", "&Copy", "Ctrl+C", "Copies the chosen nodes, as graph JSON", Where::graph},
     {"paste", "Edit", "&Paste", "Ctrl+V", "Adds the nodes of the clipboard", Where::graph},
-    {"duplicate", "Edit", "Du&plicate", "Ctrl+D", "Copies the chosen nodes with their links", Where::graph},
+    {"duplicate", "Edit", "Dup&licate", "Ctrl+D", "Copies the chosen nodes with their links", Where::graph},
     {"delete", "Edit", "&Delete, reconnecting", "Del", "Removes what is chosen and links past it",
      Where::graph},
     {"select_all", "Edit", "Select &all", "Ctrl+A", "Chooses all nodes", Where::graph, true},
@@ -34,19 +34,19 @@ constexpr ActionRow rows[] = {
 
     {"add", "Graph", "&Add a node…", "Tab", "Adds a node by a few letters of its name", Where::graph},
     {"link", "Graph", "&Link to…", "L", "Links the node's output to a port that fits", Where::graph},
-    {"take_out", "Graph", "Take &out of its links", "X", "Links past the chosen nodes and leaves them beside",
+    {"take_out", "Graph", "Ta&ke out of its links", "X", "Links past the chosen nodes and leaves them beside",
      Where::graph},
     {"rename", "Graph", "Re&name…", "F2", "Renames the node; links follow", Where::graph},
     {"enable", "Graph", "&Disable or enable", "D", "A disabled node passes on what it gets", Where::graph,
      true},
-    {"color", "Graph", "&Colour…", "C", "Colours the chosen nodes", Where::graph},
+    {"color", "Graph", "Colo&ur…", "C", "Colours the chosen nodes", Where::graph},
     {"note", "Graph", "No&te", "N", "Puts a note on the canvas", Where::graph},
     {"group", "Graph", "&Group in a frame", "G", "Draws a frame around the chosen nodes", Where::graph},
     {"collapse", "Graph", "Collapse into a graph &file…", "Ctrl+G",
      "Makes the chosen nodes a graph file with one Graph node in their place", Where::graph, true},
-    {"open_inside", "Graph", "Open the node's &graph", "Ctrl+Return",
+    {"open_inside", "Graph", "&Open the node's graph", "Ctrl+Return",
      "Opens the file of a Graph node in a page of its own", Where::graph},
-    {"arrange", "Graph", "A&rrange", "Ctrl+L", "Puts the nodes in columns along their links", Where::graph,
+    {"arrange", "Graph", "Arrang&e", "Ctrl+L", "Puts the nodes in columns along their links", Where::graph,
      true},
     {"run", "Graph", "&Run", "F5", "Runs Exports and Checks, as kinegraph run does", Where::window, true},
     {"cancel", "Graph", "&Cancel", "Ctrl+.", "Stops what runs"},
@@ -59,7 +59,7 @@ constexpr ActionRow rows[] = {
     {"previous_page", "View", "Pre&vious graph", "Ctrl+PgUp", "Shows the open graph before"},
     {"go_graph", "View", "Go to the &graph", "Ctrl+1", "Takes the keyboard to the graph", Where::window,
      true},
-    {"go_viewer", "View", "Go to the v&iewer", "Ctrl+2", "Takes the keyboard to the viewer"},
+    {"go_viewer", "View", "Go to the vie&wer", "Ctrl+2", "Takes the keyboard to the viewer"},
     {"go_timeline", "View", "Go to the &timeline", "Ctrl+3", "Takes the keyboard to the timeline"},
     {"go_parameters", "View", "Go to the &parameters", "Ctrl+4",
      "Takes the keyboard to the node's parameters"},
@@ -68,7 +68,7 @@ constexpr ActionRow rows[] = {
     {"go_problems", "View", "Go to the p&roblems", "Ctrl+7", "Takes the keyboard to the list of problems"},
     {"go_files", "View", "Go to the &files", "Ctrl+8", "Takes the keyboard to examples, graphs and clips"},
     {"play", "View", "Pla&y or pause", "Ctrl+Space", "Plays what the viewer shows", Where::window, true},
-    {"theme", "View", "Light &theme", "Ctrl+T", "Changes between the dark and the light theme", Where::window,
+    {"theme", "View", "Light th&eme", "Ctrl+T", "Changes between the dark and the light theme", Where::window,
      true},
     {"reset_layout", "View", "Usual &layout", "Ctrl+Shift+L", "Puts all docks where they stand at first"},
 
@@ -107,22 +107,16 @@ constexpr ActionRow rows[] = {
 };
 
 constexpr MouseRow gestures[] = {
-    {"Double-click on the graph", "add a node; on a Graph node open its file; on another rename it"},
-    {"Drag from a port", "link; let go on empty space to choose a node that fits"},
-    {"Drop a node on a wire", "insert it"},
-    {"Alt+drag a node", "take it out of its links"},
-    {"Ctrl+drag across wires", "cut them"},
-    {"Ctrl+click on a wire", "put a dot there"},
-    {"Wheel", "zoom to the pointer; with Shift move sideways"},
-    {"Middle button, Space+drag", "pan"},
-    {"Drag in the viewer", "turn; middle button or Shift: pan; wheel: nearer and farther"},
+    {"Double-click on the graph", "Adds a node; on a Graph node opens its file; on another renames it"},
+    {"Drag from a port", "Links; let go on empty space it offers the nodes that fit"},
+    {"Drop a node on a wire", "Puts it into the wire"},
+    {"Alt+drag a node", "Takes it out of its links"},
+    {"Ctrl+drag across wires", "Cuts them"},
+    {"Ctrl+click on a wire", "Puts a dot there"},
+    {"Wheel", "Zooms to the pointer; with Shift moves sideways"},
+    {"Middle button, Space+drag", "Moves the view"},
+    {"Drag in the viewer", "Turns; with the middle button or Shift moves; the wheel goes nearer and farther"},
 };
-
-QString section(const QString& title, const QStringList& lines, bool first = false) {
-  return QString("<tr><td colspan=3 style='padding: %1px 6px 4px 6px'><b>%2</b></td></tr>%3")
-      .arg(first ? 2 : 18)
-      .arg(title, lines.join(QString()));
-}
 
 }  // namespace
 
@@ -138,42 +132,6 @@ QString menu_text(const char* name) {
 
 std::span<const MouseRow> mouse_gestures() {
   return gestures;
-}
-
-QString help_page(const Theme& theme) {
-  QString page = "<table cellspacing=2 width='100%'>";
-  // Keys stand on a ground of their own, as on caps.
-  const QString cap = (theme.dark ? theme.line : theme.node_title.darker(106)).name();
-  const auto line = [&](const QString& keys, const QString& name, const QString& what) {
-    return QString(
-               "<tr><td style='padding: 3px 8px'><span style='background-color: "
-               "%1'>&nbsp;%2&nbsp;</span></td>"
-               "<td style='padding: 3px 8px 3px 12px'>%3</td>"
-               "<td style='padding: 3px 6px; color: %4'>%5</td></tr>")
-        .arg(cap, keys.toHtmlEscaped(), name.toHtmlEscaped(), theme.faint_text.name(), what.toHtmlEscaped());
-  };
-  const std::pair<Where, QString> places[] = {{Where::window, QObject::tr("Everywhere")},
-                                              {Where::graph, QObject::tr("In the graph")},
-                                              {Where::viewer, QObject::tr("In the viewer")},
-                                              {Where::timeline, QObject::tr("In the timeline")}};
-  for (const auto& [where, title] : places) {
-    QStringList lines;
-    for (const ActionRow& row : rows)
-      if (row.where == where)
-        lines << line(QObject::tr(row.keys), QString(QObject::tr(row.text)).remove('&').remove("…"),
-                      QObject::tr(row.what));
-    page += section(title, lines, where == Where::window);
-  }
-  QStringList lines;
-  const auto gesture = [&](const MouseRow& row) {
-    return QString(
-               "<tr><td style='padding: 3px 8px'><span style='background-color: "
-               "%1'>&nbsp;%2&nbsp;</span></td>"
-               "<td colspan=2 style='padding: 3px 8px 3px 12px'>%3</td></tr>")
-        .arg(cap, QObject::tr(row.gesture).toHtmlEscaped(), QObject::tr(row.what).toHtmlEscaped());
-  };
-  for (const MouseRow& row : gestures) lines << gesture(row);
-  return page + section(QObject::tr("With the mouse"), lines) + "</table>";
 }
 
 }  // namespace kinegraph

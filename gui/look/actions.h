@@ -2,10 +2,7 @@
 // the help are made from it.
 #pragma once
 #include <QString>
-#include <QStringList>
 #include <span>
-
-#include "gui/look/theme.h"
 
 namespace kinegraph {
 
@@ -31,7 +28,5 @@ struct MouseRow {
   const char* what;
 };
 std::span<const MouseRow> mouse_gestures();
-
-QString help_page(const Theme& theme);  // rich text
 
 }  // namespace kinegraph

@@ -2,15 +2,20 @@
 
 #include <QAbstractItemView>
 #include <QApplication>
+#include <QDateTime>
 #include <QPainter>
 #include <QStyleFactory>
 #include <QStyleOption>
+#include <QTimer>
+#include <algorithm>
 #include <optional>
 
 #include "gui/look/icons.h"
 
 namespace kinegraph {
 namespace {
+
+constexpr int bar_height = 8, there_and_back_ms = 2400, busy_step_ms = 33;
 
 // The one whose palette the application has.
 const Theme& theme_now() {
@@ -86,7 +91,7 @@ QRectF square_in(const QRect& place, double side) {
   return box;
 }
 
-void draw_check_box(QPainter& painter, const QStyleOption& option) {
+void draw_check_box(QPainter& painter, const QStyleOption& option, bool round) {
   const Theme& theme = theme_now();
   const QRectF box = square_in(option.rect, std::min(option.rect.width(), option.rect.height()) - 1);
   const bool usable = option.state & QStyle::State_Enabled;
@@ -97,13 +102,45 @@ void draw_check_box(QPainter& painter, const QStyleOption& option) {
                                                                          : theme.faint_text;
   painter.setPen(QPen(edge, 1));
   painter.setBrush(on ? accent : theme.panel);
-  painter.drawRoundedRect(box, 3, 3);
-  if (option.state & QStyle::State_On) {
+  const double corner = round ? box.width() / 2 : 3;
+  painter.drawRoundedRect(box, corner, corner);
+  if (option.state & QStyle::State_On && round) {
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(theme.window);
+    painter.drawEllipse(box.center(), box.width() / 5, box.width() / 5);
+  } else if (option.state & QStyle::State_On) {
     draw_tick(painter, box, theme.window);
   } else if (option.state & QStyle::State_NoChange) {
     painter.setPen(QPen(theme.window, 2, Qt::SolidLine, Qt::RoundCap));
     painter.drawLine(box.center() - QPointF(box.width() / 4, 0), box.center() + QPointF(box.width() / 4, 0));
   }
+}
+
+// A round track; where the length isn't known something runs to and fro in it.
+void draw_progress(QPainter& painter, const QStyleOptionProgressBar& bar, const QWidget* widget) {
+  const Theme& theme = theme_now();
+  const QRectF place(bar.rect);
+  QRectF track(place.left() + 0.5, place.center().y() - bar_height / 2 + 0.5, place.width() - 1,
+               bar_height - 1);
+  painter.setPen(QPen(theme.line, 1));
+  painter.setBrush(theme.panel);
+  painter.drawRoundedRect(track, track.height() / 2, track.height() / 2);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(theme.accent);
+  QRectF done = track.adjusted(1, 1, -1, -1);
+  if (bar.maximum > bar.minimum) {
+    const double share = double(bar.progress - bar.minimum) / (bar.maximum - bar.minimum);
+    if (share <= 0) return;
+    done.setWidth(std::max(done.height(), done.width() * std::min(share, 1.0)));
+  } else {
+    const double there = double(QDateTime::currentMSecsSinceEpoch() % there_and_back_ms) / there_and_back_ms;
+    const double at = there < 0.5 ? 2 * there : 2 - 2 * there, wide = done.width() * 0.3;
+    done =
+        QRectF(done.left() + at * at * (3 - 2 * at) * (done.width() - wide), done.top(), wide, done.height());
+    if (auto* moving = const_cast<QWidget*>(widget))
+      QTimer::singleShot(busy_step_ms, moving, qOverload<>(&QWidget::update));
+  }
+  painter.drawRoundedRect(done, done.height() / 2, done.height() / 2);
 }
 
 }  // namespace
@@ -115,7 +152,8 @@ void EditorStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* op
   // Buttons, lines and the like show the keyboard by their edge.
   if (element == PE_FrameFocusRect && !qobject_cast<const QAbstractItemView*>(widget)) return;
   if (element != PE_IndicatorCheckBox && element != PE_IndicatorItemViewItemCheck &&
-      element != PE_IndicatorMenuCheckMark && element != PE_FrameFocusRect)
+      element != PE_IndicatorMenuCheckMark && element != PE_IndicatorRadioButton &&
+      element != PE_FrameFocusRect)
     return QProxyStyle::drawPrimitive(element, option, painter, widget);
   painter->save();
   painter->setRenderHint(QPainter::Antialiasing);
@@ -126,8 +164,20 @@ void EditorStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* op
   } else if (element == PE_IndicatorMenuCheckMark) {
     if (option->state & State_On) draw_tick(*painter, square_in(option->rect, 14), theme_now().text);
   } else {
-    draw_check_box(*painter, *option);
+    draw_check_box(*painter, *option, element == PE_IndicatorRadioButton);
   }
+  painter->restore();
+}
+
+void EditorStyle::drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
+                              const QWidget* widget) const {
+  const auto* bar = qstyleoption_cast<const QStyleOptionProgressBar*>(option);
+  if (bar && (element == CE_ProgressBarGroove || element == CE_ProgressBarLabel)) return;
+  if (!bar || (element != CE_ProgressBar && element != CE_ProgressBarContents))
+    return QProxyStyle::drawControl(element, option, painter, widget);
+  painter->save();
+  painter->setRenderHint(QPainter::Antialiasing);
+  draw_progress(*painter, *bar, widget);
   painter->restore();
 }
 
@@ -147,6 +197,8 @@ int EditorStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, con
   switch (metric) {
     case PM_IndicatorWidth:
     case PM_IndicatorHeight:
+    case PM_ExclusiveIndicatorWidth:
+    case PM_ExclusiveIndicatorHeight:
       return 16;
     case PM_MessageBoxIconSize:
       return 32;

@@ -187,7 +187,8 @@ void draw(QPainter& p, Sign sign, const Theme& theme) {
 
 QIcon icon(Sign sign, const Theme& theme) {
   QIcon made;
-  for (const auto mode : {QIcon::Normal, QIcon::Disabled})
+  // In a chosen row as well: what Qt would make of it there is washed out.
+  for (const auto mode : {QIcon::Normal, QIcon::Selected, QIcon::Disabled})
     for (const int size : {16, 24, 32, 48, 64}) {
       QPixmap pixmap(size, size);
       pixmap.fill(Qt::transparent);

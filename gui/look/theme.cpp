@@ -191,9 +191,10 @@ QFrame#notice_bar[kind="warning"] { border-left-color: %11; }
 QFrame#notice_bar[kind="error"] { border-left-color: %12; }
 QScrollArea#parameter_rows, QScrollArea#parameter_rows > QWidget > QWidget { background: transparent; }
 QScrollArea#examples, QScrollArea#examples > QWidget > QWidget { background: transparent; }
-QCheckBox { spacing: 6px; padding: 2px; border: 1px solid transparent; border-radius: 3px; }
-QCheckBox:disabled { color: %7; }
-QCheckBox:focus { border-color: %5; }
+QCheckBox, QRadioButton { spacing: 6px; padding: 2px; border: 1px solid transparent; border-radius: 3px; }
+QRadioButton { margin: 3px 6px 3px 4px; }
+QCheckBox:disabled, QRadioButton:disabled { color: %7; }
+QCheckBox:focus, QRadioButton:focus { border-color: %5; }
 QLineEdit:focus, QPlainTextEdit:focus, QComboBox:focus, QPushButton:focus, QToolButton:focus, QTreeView:focus, QListView:focus, QTableView:focus { border: 1px solid %5; }
 QLineEdit[mistake="true"], QComboBox[mistake="true"], QTableView[mistake="true"] { border: 1px solid %12; }
 QLineEdit[mistake="true"]:focus, QComboBox[mistake="true"]:focus, QTableView[mistake="true"]:focus { border: 2px solid %12; }
@@ -212,7 +213,11 @@ QTreeView, QListView, QTableView { background: %8; border: 1px solid %3; border-
 QTableView { gridline-color: %3; }
 QTreeView::item, QTableView::item { border: none; padding: 3px 8px; min-height: 16px; }
 QTreeView::item:selected, QTableView::item:selected, QListView::item:selected { background: %6; color: %4; }
-QTableView QLineEdit, QTreeView QLineEdit, QTableView QComboBox { padding: 0px 6px; border-radius: 0px; }
+QTableView QLineEdit, QTreeView QLineEdit { padding: 0px 6px; border-radius: 0px; }
+QTableView QComboBox { padding: 0px 6px; }
+QFileDialog QHeaderView::up-arrow, QFileDialog QHeaderView::down-arrow { image: none; width: 0px; height: 0px; }
+QFileDialog QListView#sidebar { padding: 4px 0px; }
+QToolButton#notice_close { padding: 5px; }
 QHeaderView { background: %1; }
 QHeaderView::section { background: %1; color: %7; border: none; border-bottom: 1px solid %3; padding: 4px 11px; }
 QTabBar::tab { padding: 6px 12px; border: none; border-bottom: 2px solid transparent; color: %7; }
@@ -220,6 +225,9 @@ QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QTabBar::close-button { image: url(:/kinegraph/close.png); border-radius: 3px; margin: 2px; }
 QTabBar::close-button:hover { background: %3; }
 QTabBar#pages { background: %1; }
+QTabBar::scroller { width: 28px; }
+QTabBar QToolButton { background: %1; border: 1px solid %3; border-radius: 3px; margin: 4px 0px; padding: 0px; }
+QTabBar QToolButton:hover { background: %2; border-color: %5; }
 QTabBar::tab:hover { color: %4; }
 QTabBar::tab:focus { border-bottom-color: %5; color: %5; }
 QTabBar::tab:selected { border-bottom-color: %5; color: %4; }
@@ -230,8 +238,6 @@ QScrollBar::handle { background: %3; border-radius: 4px; min-height: 24px; min-w
 QScrollBar::handle:hover { background: %7; }
 QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
 QScrollBar::add-page, QScrollBar::sub-page { background: none; }
-QProgressBar { background: %8; border: 1px solid %3; border-radius: 4px; max-height: 8px; }
-QProgressBar::chunk { background: %5; border-radius: 3px; }
 )")
       .arg(c(window), c(raised), c(line), c(text), c(accent), c(selection), c(faint_text), c(panel))
       .arg(c(dark ? text : raised), c(good), c(warning), c(error));

@@ -6,26 +6,56 @@
 #include <QPushButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "graph/json.h"
 
 namespace kinegraph {
 namespace {
 
-QString shown(const std::optional<Json>& value, const Unit& unit) {
-  if (!value) return QObject::tr("–");
-  if ((unit.kind == Unit::Kind::node || unit.kind == Unit::Kind::missing_node) && value->is_object())
-    if (const Json* type = value->find("type"); type && type->is_string())
-      return QString::fromStdString(type->string());
-  if (value->is_string()) return QString::fromStdString(value->string());
-  return QString::fromStdString(compact(*value));
-}
+constexpr int row_height = 26;
 
 bool is_node(const Unit& unit) {
   return unit.kind == Unit::Kind::node || unit.kind == Unit::Kind::missing_node;
 }
 
 }  // namespace
+
+UnitWords unit_words(const Unit& unit) {
+  const QString name = QString::fromStdString(unit.name), key = QString::fromStdString(unit.key);
+  switch (unit.kind) {
+    case Unit::Kind::node:
+    case Unit::Kind::missing_node:
+      return {name, QObject::tr("the node")};
+    case Unit::Kind::node_type:
+      return {name, QObject::tr("type")};
+    case Unit::Kind::node_enabled:
+      return {name, QObject::tr("enabled")};
+    case Unit::Kind::node_note:
+      return {name, QObject::tr("note")};
+    case Unit::Kind::node_param:
+    case Unit::Kind::node_input:
+    case Unit::Kind::node_extra:
+      return {name, key};
+    case Unit::Kind::variable:
+      return {{}, QObject::tr("variable %1").arg(name)};
+    case Unit::Kind::publish_param:
+    case Unit::Kind::publish_input:
+    case Unit::Kind::publish_output:
+      return {{}, QObject::tr("published %1").arg(name)};
+    default:
+      return {{}, QString::fromStdString(to_text(unit))};
+  }
+}
+
+QString value_words(const std::optional<Json>& value, const Unit& unit) {
+  if (!value) return QObject::tr("–");
+  if (is_node(unit) && value->is_object())
+    if (const Json* type = value->find("type"); type && type->is_string())
+      return QString::fromStdString(type->string());
+  if (value->is_string()) return QString::fromStdString(value->string());
+  return QString::fromStdString(compact(*value));
+}
 
 QStringList changes_in_words(const Diff& diff) {
   QStringList words;
@@ -37,8 +67,10 @@ QStringList changes_in_words(const Diff& diff) {
       words << (change.after && change.before ? QObject::tr("another node %1").arg(name)
                 : change.after                ? QObject::tr("new node %1").arg(name)
                                               : QObject::tr("%1 is gone").arg(name));
+    else if (const auto [node, what] = unit_words(change.unit); node.isEmpty())
+      words << what;
     else
-      words << QString::fromStdString(to_text(change.unit));
+      words << QObject::tr("%1 of %2").arg(what, node);
   }
   return words;
 }
@@ -46,36 +78,44 @@ QStringList changes_in_words(const Diff& diff) {
 ChangesDialog::ChangesDialog(const QString& title, const Diff& diff, QWidget* parent) : QDialog(parent) {
   setObjectName("changes_dialog");
   setWindowTitle(tr("What changed"));
-  resize(720, 360);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(16, 14, 16, 14);
   column->setSpacing(10);
-  auto* head = new QLabel(QString("<b>%1</b>").arg(title.toHtmlEscaped()), this);
+  auto* head = new QLabel(title, this);
+  QFont bold = head->font();
+  bold.setBold(true);
+  head->setFont(bold);
   column->addWidget(head);
   auto* list = new QTreeWidget(this);
   list->setAccessibleName(tr("Changes"));
-  list->setHeaderLabels({tr("What"), tr("Before"), tr("On disk now")});
+  list->setHeaderLabels({tr("Node"), tr("What"), tr("Before"), tr("On disk now")});
   list->setRootIsDecorated(false);
-  list->setColumnWidth(0, 260);
-  list->setColumnWidth(1, 190);
+  list->setAllColumnsShowFocus(true);
+  list->setColumnWidth(0, 150);
+  list->setColumnWidth(1, 150);
+  list->setColumnWidth(2, 190);
   list->header()->setStretchLastSection(true);
+  const auto add = [&](const QStringList& cells) {
+    auto* item = new QTreeWidgetItem(list, cells);
+    item->setSizeHint(0, QSize(0, row_height));
+    for (int i = 0; i < int(cells.size()); ++i) item->setToolTip(i, cells[i]);
+  };
   for (const auto& [from, to] : diff.renames)
-    list->addTopLevelItem(new QTreeWidgetItem(
-        {tr("name of a node"), QString::fromStdString(from), QString::fromStdString(to)}));
-  for (const Change& change : diff.changes)
-    list->addTopLevelItem(new QTreeWidgetItem(
-        {is_node(change.unit) ? tr("node %1").arg(QString::fromStdString(change.unit.name))
-                              : QString::fromStdString(to_text(change.unit)),
-         shown(change.before, change.unit), shown(change.after, change.unit)}));
-  if (diff.empty()) list->addTopLevelItem(new QTreeWidgetItem({tr("only the layout")}));
-  for (int i = 0; i < list->topLevelItemCount(); ++i)
-    list->topLevelItem(i)->setSizeHint(0, QSize(0, fontMetrics().height() + 10));
+    add({QString::fromStdString(from), tr("name"), QString::fromStdString(from), QString::fromStdString(to)});
+  for (const Change& change : diff.changes) {
+    const auto [node, what] = unit_words(change.unit);
+    add({node.isEmpty() ? tr("the graph") : node, what, value_words(change.before, change.unit),
+         value_words(change.after, change.unit)});
+  }
+  if (diff.empty()) add({tr("the graph"), tr("layout"), tr("–"), tr("moved")});
+  list->setCurrentItem(list->topLevelItem(0));
   column->addWidget(list, 1);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
   buttons->addButton(tr("Merge it in"), QDialogButtonBox::AcceptRole)->setDefault(true);
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   column->addWidget(buttons);
+  resize(740, 170 + row_height * std::clamp(list->topLevelItemCount(), 3, 14));
 }
 
 }  // namespace kinegraph

@@ -61,6 +61,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   page_tabs_->setTabsClosable(true);
   page_tabs_->setDrawBase(false);
   page_tabs_->setExpanding(false);
+  page_tabs_->setElideMode(Qt::ElideNone);
   page_tabs_->setFocusPolicy(Qt::TabFocus);
   column->addWidget(page_tabs_);
   column->addWidget(notice_);
@@ -104,8 +105,10 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
     canvas_->frame_all();
   });
   connect(&session_, &Session::changed, this, [this] {
-    welcome_->show_where(session_.document().nodes.empty() && session_.document().ui.notes.empty() &&
-                         !session_.is_read_only());
+    const bool empty =
+        session_.document().nodes.empty() && session_.document().ui.notes.empty() && !session_.is_read_only();
+    if (empty && !welcome_->isVisible()) welcome_->show_recent(recent());
+    welcome_->show_where(empty);
   });
   connect(&session_, &Session::changed, this, &MainWindow::update_actions);
   connect(&session_, &Session::selection_changed, this, &MainWindow::update_actions);
@@ -161,6 +164,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
     laid_out_ = restoreState(settings->value("window/layout").toByteArray(), layout_version);
     dark = settings->value("window/theme", "dark").toString() != "light";
   }
+  welcome_->show_recent(recent());
   set_theme(dark ? dark_theme() : light_theme());
   update_title();
   update_actions();

@@ -23,6 +23,7 @@ class QTabBar;
 namespace kinegraph {
 
 struct ActionRow;
+struct Merge;
 class Welcome;
 
 class MainWindow : public QMainWindow {
@@ -100,13 +101,17 @@ class MainWindow : public QMainWindow {
   void offer_missing_files();
   bool save_what_is_inside();  // false: the person would rather not run
   void offer_merge(const std::string& now);
+  void say_conflicts(const Merge& merged, const Document& theirs);
   // The file isn't what was read or saved here: offers to merge rather than to write over it.
   bool changed_by_others();
   void run_effects();
   void ran_effects();
   void remember_recent(const QString& path);
+  QStringList recent() const;  // graphs that were open and are there, the last one first
   void fill_recent(QMenu* menu);
-  void tell(const Diagnostics& problems, const QString& title);
+  void tell(const Diagnostics& problems, const QString& title, const QString& advice = {});
+  // Why it couldn't be saved; true: it was saved elsewhere.
+  bool tell_unsaved(const Failure& failure, const QString& name);
   void watch_files();
   void watch_other_files();  // where an edit names others
   QStringList files_behind(const Document& document, const QString& folder);

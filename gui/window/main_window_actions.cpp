@@ -1,6 +1,5 @@
 // The actions of the table, bound to what does them; menus and toolbar.
 #include <QApplication>
-#include <QDialogButtonBox>
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
@@ -8,12 +7,12 @@
 #include <QMessageBox>
 #include <QPlainTextEdit>
 #include <QPointer>
-#include <QTextBrowser>
 #include <QToolBar>
 #include <QToolButton>
-#include <QVBoxLayout>
 
 #include "gui/look/actions.h"
+#include "gui/look/words.h"
+#include "gui/window/keys_dialog.h"
 #include "gui/window/main_window.h"
 
 namespace kinegraph {
@@ -167,7 +166,7 @@ void MainWindow::update_icons() {
       {"open", Sign::open}, {"save", Sign::save},   {"frame_all", Sign::frame}, {"keys", Sign::keys},
       {"about", Sign::info}};
   for (const auto& [name, sign] : signs) actions_.at(name)->setIcon(icon(sign, *theme_));
-  actions_.at("theme")->setText(theme_->dark ? tr("Light &theme") : tr("Dark &theme"));
+  actions_.at("theme")->setText(theme_->dark ? tr("Light th&eme") : tr("Dark th&eme"));
   actions_.at("theme")->setIconText(theme_->dark ? tr("Light") : tr("Dark"));
 }
 
@@ -197,22 +196,7 @@ void MainWindow::update_actions() {
 }
 
 void MainWindow::show_keys() {
-  QDialog dialog(this);
-  dialog.setObjectName("keys_dialog");
-  dialog.setWindowTitle(tr("Keys and mouse"));
-  auto* column = new QVBoxLayout(&dialog);
-  auto* page = new QTextBrowser(&dialog);
-  page->setAccessibleName(tr("Keys and mouse"));
-  page->setHtml(help_page(*theme_));
-  page->setFrameShape(QFrame::NoFrame);
-  column->addWidget(page);
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, &dialog);
-  connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
-  column->addWidget(buttons);
-  column->setContentsMargins(12, 12, 12, 12);
-  column->setSpacing(10);
-  dialog.resize(780, 620);
-  dialog.exec();
+  KeysDialog(*theme_, this).exec();
 }
 
 void MainWindow::about() {
@@ -223,7 +207,7 @@ void MainWindow::about() {
   box.setInformativeText(
       tr("A compositor for character motion: graphs of nodes over captured and made clips. The same graphs "
          "run here and with “kinegraph run”."));
-  box.exec();
+  ask(box);
 }
 
 }  // namespace kinegraph

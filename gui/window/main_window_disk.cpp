@@ -9,6 +9,7 @@
 #include "graph/nested.h"
 #include "gui/document/problem_text.h"
 #include "gui/window/changes_dialog.h"
+#include "gui/window/conflicts_dialog.h"
 #include "gui/window/main_window.h"
 #include "gui/window/relink_dialog.h"
 
@@ -109,15 +110,19 @@ void MainWindow::file_changed_on_disk(const QString& path) {
       if (path != session_.path()) return;
       if (QFile::exists(path)) return file_changed_on_disk(path);
       notice_->say(NoticeBar::Kind::warning,
-                   tr("%1 is not on the disk any more. What is open here is kept; save it to have the file "
-                      "again.")
-                       .arg(session_.title()),
+                   tr("%1 is not on the disk any more. What is open here is kept.").arg(session_.title()),
                    {{tr("Save it again"), [this] { save(); }}});
     });
     return;
   }
   const std::string now = bytes_of(path);
-  if (now.empty()) return;
+  if (now.empty()) {
+    // Who writes it may have only begun.
+    QTimer::singleShot(gone_after_ms, this, [this, path] {
+      if (path == session_.path() && QFile::exists(path) && bytes_of(path).empty()) offer_merge({});
+    });
+    return;
+  }
   if (now == session_.text_on_disk() || now == session_.text()) {
     if (session_.refused_file().path == path) session_.forget_refused();  // it was mended
     return;
@@ -131,10 +136,18 @@ void MainWindow::offer_merge(const std::string& now) {
   if (has_error(theirs.problems)) {
     session_.refuse(read_graph_text(now, session_.path(), registry_, session_.modified_pages(), StopToken()));
     notice_->say(NoticeBar::Kind::warning,
-                 tr("%1 changed on disk and can't be read there any more. What is open here is kept; saving "
-                    "replaces what is on disk.")
+                 tr("%1 changed on disk and can't be read there any more. What is open here is kept; save it "
+                    "to replace what is on disk.")
                      .arg(session_.title()),
                  {{tr("Show problems"), [this] { show_dock("Problems"); }}});
+    return;
+  }
+  if (theirs.document.read_only) {
+    notice_->say(NoticeBar::Kind::warning,
+                 tr("%1 was saved by a newer Kinegraph. Save what is open here under another name, or update "
+                    "Kinegraph to merge it.")
+                     .arg(session_.title()),
+                 {{tr("Save as…"), [this] { save_as(); }}});
     return;
   }
   if (session_.refused_file().path == session_.path()) session_.forget_refused();
@@ -144,25 +157,24 @@ void MainWindow::offer_merge(const std::string& now) {
   const QString list = what.isEmpty()
                            ? tr("only its layout")
                            : QStringList(what.mid(0, 4)).join(", ") + (what.size() > 4 ? ", …" : "");
-  const auto merge_in = [this, now, base, theirs] {
+  const auto merge_in = [this, now, base, theirs, list] {
     const Merge merged =
         merge(base.document, session_.document(), theirs.document, registry_, "here", "on disk");
+    const Document before = session_.document();
     session_.perform([&](const Document& document, const Registry&) {
       return edit_between(document, merged.document, "Merge what changed on disk");
     });
     session_.set_text_on_disk(now);
     watch_files();
-    if (merged.conflicts.empty()) return;
-    QStringList conflicts;
-    for (const MergeConflict& one : merged.conflicts)
-      conflicts << with_quotes(QString::fromStdString(one.what));
-    notice_->say(
-        NoticeBar::Kind::warning,
-        tr("Both sides changed the same; what is open here was kept: %1.").arg(conflicts.join("; ")));
+    if (merged.conflicts.empty()) {
+      notice_->say(NoticeBar::Kind::good, tr("Merged in: %1. Undo takes it back; save to keep it.").arg(list),
+                   {}, 8);
+      return;
+    }
+    const Merge other = merge(base.document, theirs.document, before, registry_, "on disk", "here");
+    say_conflicts(merged, other.document);
   };
-  notice_->say(NoticeBar::Kind::info,
-               tr("%1 changed on disk: %2. Merge it in, or keep what is open, before it is saved.")
-                   .arg(session_.title(), list),
+  notice_->say(NoticeBar::Kind::info, tr("%1 changed on disk: %2.").arg(session_.title(), list),
                {{tr("Merge it in"), merge_in},
                 {tr("Show what changed"),
                  [this, changed, merge_in, now] {
@@ -173,6 +185,37 @@ void MainWindow::offer_merge(const std::string& now) {
                      offer_merge(now);
                  }},
                 {tr("Keep what is open"), [this, now] { session_.set_text_on_disk(now); }}});
+}
+
+// Yours stands in the graph; of each a colleague's can be taken instead.
+void MainWindow::say_conflicts(const Merge& merged, const Document& theirs) {
+  QStringList where;
+  for (const MergeConflict& one : merged.conflicts) {
+    if (!one.unit) {
+      where << with_quotes(QString::fromStdString(one.what));
+      continue;
+    }
+    const auto [node, what] = unit_words(*one.unit);
+    where << (node.isEmpty() ? what : tr("%1 of %2").arg(what, node));
+  }
+  const QString list = QStringList(where.mid(0, 3)).join(", ") + (where.size() > 3 ? ", …" : "");
+  notice_->say(
+      NoticeBar::Kind::warning, tr("Merged in, but both sides changed: %1. Yours was kept.").arg(list),
+      {{tr("Choose…"), [this, merged, theirs] {
+          ConflictsDialog dialog(tr("Both sides changed %1").arg(session_.title()), merged.conflicts,
+                                 merged.document, theirs, this);
+          if (dialog.exec() != QDialog::Accepted) return say_conflicts(merged, theirs);
+          session_.perform([&](const Document& document, const Registry&) {
+            Document chosen = document;
+            for (const Unit& unit : dialog.chosen()) {
+              // Of a node that was taken away since, nothing can be kept.
+              const bool whole = unit.kind == Unit::Kind::node || unit.kind == Unit::Kind::missing_node;
+              if (whole || unit_words(unit).node.isEmpty() || chosen.nodes.count(unit.name))
+                set(chosen, unit, get(theirs, unit));
+            }
+            return edit_between(document, chosen, "Take what is on disk");
+          });
+        }}});
 }
 
 bool MainWindow::changed_by_others() {

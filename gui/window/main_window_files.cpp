@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QMessageBox>
+#include <QPushButton>
 #include <QStatusBar>
 
 #include "graph/nested.h"
@@ -12,6 +13,7 @@
 #include "gui/document/problem_text.h"
 #include "gui/look/ask_file.h"
 #include "gui/look/settings.h"
+#include "gui/look/words.h"
 #include "gui/window/main_window.h"
 #include "gui/window/wait_aside.h"
 
@@ -25,13 +27,18 @@ QString graph_filter() {
   return QObject::tr("Kinegraph graphs (*.kg.json);;All files (*)");
 }
 
+QString with_capital(QString text) {
+  if (!text.isEmpty()) text[0] = text[0].toUpper();
+  return text;
+}
+
 // Where each is, what it is and what to do; the file they are in goes without saying.
 QString listed(const Diagnostics& problems) {
   QString text;
   for (std::size_t i = 0; i < problems.size() && i < most_listed; ++i) {
     const QString where = place_of(problems[i]), advice = advice_on(problems[i]);
-    text += (where.isEmpty() ? "" : where + ": ") + problem_text(problems[i]) +
-            (advice.isEmpty() ? "" : " " + advice) + "\n";
+    text += (where.isEmpty() ? "" : (problems[i].node.empty() ? with_capital(where) : where) + ": ") +
+            problem_text(problems[i]) + (advice.isEmpty() ? "" : " " + advice) + "\n";
   }
   if (problems.size() > most_listed)
     text +=
@@ -39,22 +46,40 @@ QString listed(const Diagnostics& problems) {
   return text.trimmed();
 }
 
+// A person's own folder is "~".
+QString short_folder(const QString& folder) {
+  const QString home = QDir::homePath();
+  return folder == home || folder.startsWith(home + "/") ? "~" + folder.mid(home.size())
+                                                         : QDir::toNativeSeparators(folder);
+}
+
 }  // namespace
 
-void MainWindow::tell(const Diagnostics& problems, const QString& title) {
+void MainWindow::tell(const Diagnostics& problems, const QString& title, const QString& advice) {
   if (problems.empty()) return;
   if (!options_.ask || !isVisible()) {
     notice_->say(NoticeBar::Kind::error, title + "\n" + listed(problems));
     return;
   }
   QMessageBox box(QMessageBox::Warning, tr("Kinegraph"), title, QMessageBox::Close, this);
-  box.setInformativeText(listed(problems));
+  box.setInformativeText(listed(problems) + (advice.isEmpty() ? QString() : "\n\n" + advice));
   const QString file = QString::fromStdString(problems.front().file);
-  for (QLabel* label : box.findChildren<QLabel*>()) {
-    label->setTextFormat(Qt::PlainText);
-    label->setToolTip(QDir::toNativeSeparators(file));
+  for (QLabel* label : box.findChildren<QLabel*>()) label->setToolTip(QDir::toNativeSeparators(file));
+  ask(box);
+}
+
+bool MainWindow::tell_unsaved(const Failure& failure, const QString& name) {
+  const Diagnostic& problem = failure.diagnostic();
+  const QString title = tr("%1 can't be saved.").arg(name);
+  if (!options_.ask || !isVisible() || session_.is_read_only()) {
+    tell({problem}, title);
+    return false;
   }
-  box.exec();
+  QMessageBox box(QMessageBox::Warning, tr("Kinegraph"), title, QMessageBox::Save | QMessageBox::Close, this);
+  box.setInformativeText(problem_text(problem) + " " + advice_on(problem) + " " +
+                         tr("What is open here is kept."));
+  box.button(QMessageBox::Save)->setText(tr("Save elsewhere…"));
+  return ask(box) == QMessageBox::Save && save_as();
 }
 
 bool MainWindow::open_page_of(const QString& path) {
@@ -72,7 +97,10 @@ bool MainWindow::open_page_of(const QString& path) {
   const Diagnostics problems =
       untouched ? session_.open(std::move(file)) : session_.open_page(std::move(file));
   if (!has_error(problems)) return true;
-  tell(problems, tr("%1 can't be opened.").arg(name));
+  tell(problems, tr("%1 can't be opened.").arg(name),
+       QFileInfo(path).isFile()
+           ? tr("The file is left as it is: mend it in a text editor, or take an earlier copy.")
+           : QString());
   show_dock("Problems");
   return false;
 }
@@ -85,13 +113,12 @@ bool MainWindow::open(const QString& path) {
   notice_->hide();
   if (session_.is_read_only())
     notice_->say(NoticeBar::Kind::warning,
-                 tr("%1 was made by a newer Kinegraph. It can be looked at but not changed or saved; update "
-                    "Kinegraph to work on it.")
+                 tr("%1 was made by a newer Kinegraph and can only be looked at. Update Kinegraph to work on "
+                    "it.")
                      .arg(session_.title()));
   if (session_.is_open_elsewhere())
     notice_->say(NoticeBar::Kind::warning,
-                 tr("%1 is open in another editor as well. Each has its own changes; once they are saved "
-                    "there, they can be merged in here.")
+                 tr("%1 is open in another editor as well. What is saved there can be merged in here.")
                      .arg(session_.title()));
   offer_missing_files();
   offer_autosave();
@@ -101,15 +128,15 @@ bool MainWindow::open(const QString& path) {
 void MainWindow::offer_autosave() {
   if (!session_.autosave_found() || session_.is_read_only()) return;
   session_.keep_found();
-  notice_->say(NoticeBar::Kind::info,
-               tr("Work on %1 that was never saved was found, from a session that ended unexpectedly.")
-                   .arg(session_.title()),
-               {{tr("Take it up"),
-                 [this] {
-                   tell(session_.recover(), tr("The work that was found can't be read."));
-                   canvas_->frame_all();
-                 }},
-                {tr("Throw it away"), [this] { session_.discard_found(); }}});
+  notice_->say(
+      NoticeBar::Kind::info,
+      tr("Unsaved work on %1 was found, of a session that ended unexpectedly.").arg(session_.title()),
+      {{tr("Take it up"),
+        [this] {
+          tell(session_.recover(), tr("The work that was found can't be read."));
+          canvas_->frame_all();
+        }},
+       {tr("Throw it away"), [this] { session_.discard_found(); }}});
 }
 
 void MainWindow::new_graph() {
@@ -133,8 +160,7 @@ bool MainWindow::save() {
     statusBar()->showMessage(tr("Saved"), 2000);
     return true;
   } catch (const Failure& failure) {
-    tell({failure.diagnostic()}, tr("%1 can't be saved.").arg(session_.title()));
-    return false;
+    return tell_unsaved(failure, session_.title());
   }
 }
 
@@ -150,8 +176,7 @@ bool MainWindow::save_as() {
     remember_recent(session_.path());
     return true;
   } catch (const Failure& failure) {
-    tell({failure.diagnostic()}, tr("%1 can't be saved.").arg(QFileInfo(path).fileName()));
-    return false;
+    return tell_unsaved(failure, QFileInfo(path).fileName());
   }
 }
 
@@ -164,7 +189,7 @@ bool MainWindow::may_discard() {
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
   box.setInformativeText(tr("Without saving they are lost."));
   box.setDefaultButton(QMessageBox::Save);
-  switch (box.exec()) {
+  switch (ask(box)) {
     case QMessageBox::Save:
       return save();
     case QMessageBox::Discard:
@@ -184,12 +209,29 @@ void MainWindow::remember_recent(const QString& path) {
   settings->setValue("recent", QStringList(recent.mid(0, recent_files)));
 }
 
+QStringList MainWindow::recent() const {
+  QStringList there;
+  if (!options_.remember) return there;
+  for (const QString& path : user_settings()->value("recent").toStringList())
+    if (QFile::exists(path)) there << path;
+  return there;
+}
+
+// Names first, folders beside them, as keys stand beside actions.
 void MainWindow::fill_recent(QMenu* menu) {
   menu->clear();
-  for (const QString& path : user_settings()->value("recent").toStringList())
-    if (QFile::exists(path))
-      menu->addAction(QDir::toNativeSeparators(path), this, [this, path] { open(path); });
-  if (menu->isEmpty()) menu->addAction(tr("No graph was opened yet"))->setEnabled(false);
+  for (const QString& path : recent()) {
+    const QFileInfo file(path);
+    const QString folder =
+        menu->fontMetrics().elidedText(short_folder(file.absolutePath()), Qt::ElideMiddle, 320);
+    menu->addAction(file.fileName().replace("&", "&&") + "\t" + folder, this, [this, path] { open(path); });
+  }
+  if (menu->isEmpty()) {
+    menu->addAction(tr("No graph was opened yet"))->setEnabled(false);
+    return;
+  }
+  menu->addSeparator();
+  menu->addAction(tr("&Clear this list"), this, [] { user_settings()->remove("recent"); });
 }
 
 void MainWindow::run_effects() {

@@ -5,14 +5,22 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QTabBar>
+#include <algorithm>
 
 #include "graph/collapse.h"
 #include "graph/file/write.h"
 #include "graph/nested.h"
 #include "gui/look/ask_file.h"
+#include "gui/look/words.h"
 #include "gui/window/main_window.h"
 
 namespace kinegraph {
+namespace {
+
+constexpr int widest_title = 180;      // pixels of a tab
+constexpr qsizetype most_listed = 10;  // graphs in a question
+
+}  // namespace
 
 void MainWindow::update_pages() {
   const QSignalBlocker quiet(page_tabs_);
@@ -21,6 +29,8 @@ void MainWindow::update_pages() {
   for (int i = 0; i < session_.pages(); ++i) {
     QString title = session_.page_title(i);
     if (title.endsWith(".kg.json")) title.chop(8);
+    title = page_tabs_->fontMetrics().elidedText(title, Qt::ElideMiddle, widest_title);
+    title.replace("&", "&&");
     page_tabs_->setTabText(i, session_.is_page_modified(i) ? title + " •" : title);
     page_tabs_->setTabToolTip(i, QDir::toNativeSeparators(session_.page_path(i)));
   }
@@ -41,13 +51,37 @@ void MainWindow::close_page(int page) {
 }
 
 bool MainWindow::may_discard_all() {
+  std::vector<int> unsaved;
+  QStringList names;
   for (int i = 0; i < session_.pages(); ++i) {
     const QString path = session_.page_path(i);
     if (!session_.is_page_modified(i) && (path.isEmpty() || QFile::exists(path))) continue;
-    session_.show_page(i);
-    if (!may_discard()) return false;
+    unsaved.push_back(i);
+    names << session_.page_title(i);
   }
-  return true;
+  if (!options_.ask) return true;
+  const auto all = [&](auto&& of_shown) {
+    return std::all_of(unsaved.begin(), unsaved.end(), [&](int page) {
+      session_.show_page(page);
+      return of_shown();
+    });
+  };
+  if (unsaved.size() < 2) return all([this] { return may_discard(); });
+  QMessageBox box(QMessageBox::Question, tr("Kinegraph"),
+                  tr("Save the changes to %1 graphs?").arg(unsaved.size()),
+                  QMessageBox::SaveAll | QMessageBox::Discard | QMessageBox::Cancel, this);
+  QStringList listed = names.mid(0, most_listed);
+  if (names.size() > most_listed) listed << tr("… and %1 more").arg(names.size() - most_listed);
+  box.setInformativeText(listed.join('\n') + "\n\n" + tr("Without saving their changes are lost."));
+  box.button(QMessageBox::SaveAll)->setText(tr("Save all"));
+  box.button(QMessageBox::Discard)->setText(tr("Discard all"));
+  box.setDefaultButton(QMessageBox::SaveAll);
+  const int answer = ask(box);
+  if (answer == QMessageBox::SaveAll) return all([this] { return session_.is_read_only() || save(); });
+  return answer == QMessageBox::Discard && all([this] {
+           session_.discard_autosave();
+           return true;
+         });
 }
 
 void MainWindow::open_inside(const std::string& name) {
@@ -105,7 +139,7 @@ bool MainWindow::save_what_is_inside() {
       tr("It lies inside this graph and has changes that are not saved: what runs here "
          "would differ from what “kinegraph run” gives."));
   box.setDefaultButton(QMessageBox::Save);
-  const int answer = box.exec();
+  const int answer = ask(box);
   if (answer == QMessageBox::Cancel) return false;
   if (answer == QMessageBox::Ignore) return true;
   const int shown = session_.page();

@@ -8,6 +8,7 @@
 
 class QLabel;
 class QHBoxLayout;
+class QToolButton;
 
 namespace kinegraph {
 
@@ -26,13 +27,16 @@ class NoticeBar : public QFrame {
 
  protected:
   void changeEvent(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void draw_sign();
+  void set_words();
 
   Kind kind_ = Kind::info;
   QLabel* sign_;
   QLabel* label_;
+  QToolButton* close_;
   QHBoxLayout* layout_;
   std::vector<QWidget*> buttons_;
   QTimer timer_;

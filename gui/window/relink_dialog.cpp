@@ -11,6 +11,7 @@
 #include <QPushButton>
 #include <QTableWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "graph/nested.h"
 #include "gui/canvas/canvas_edits.h"
@@ -52,15 +53,14 @@ RelinkDialog::RelinkDialog(Session& session, const KnownFiles& known, std::vecto
       progress_(new QProgressBar(this)) {
   setObjectName("relink_dialog");
   setWindowTitle(tr("Find missing files"));
-  resize(820, 380);
+  resize(820, 150 + 36 * int(std::clamp<std::size_t>(missing_.size() + 1, 3, 9)));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(16, 14, 16, 14);
   column->setSpacing(10);
-  auto* words =
-      new QLabel(tr("These files aren't where the graph says. Files of the same name, or of the same "
-                    "content under another name, are looked for beside the graph."),
-                 this);
-  words->setWordWrap(true);
+  auto* words = new QLabel(
+      tr("These files aren't where the graph says. Files of the same name, or of the same content\n"
+         "under another name, are looked for beside the graph."),
+      this);
   column->addWidget(words);
   table_->setAccessibleName(tr("Missing files"));
   table_->setHorizontalHeaderLabels({tr("Node"), tr("Missing file"), tr("Use instead")});
@@ -73,7 +73,7 @@ RelinkDialog::RelinkDialog(Session& session, const KnownFiles& known, std::vecto
   table_->setShowGrid(false);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setTabKeyNavigation(false);
+  table_->setFocusPolicy(Qt::NoFocus);
   for (std::size_t i = 0; i < missing_.size(); ++i) {
     const int row = int(i);
     table_->setItem(row, 0, new QTableWidgetItem(QString::fromStdString(missing_[i].node)));
@@ -82,7 +82,7 @@ RelinkDialog::RelinkDialog(Session& session, const KnownFiles& known, std::vecto
     table_->setItem(row, 1, file);
     auto* choice = new QComboBox(table_);
     choice->setAccessibleName(tr("File for %1").arg(QString::fromStdString(missing_[i].node)));
-    choice->addItem(tr("Nothing found yet"));
+    choice->addItem(tr("Searching…"));
     connect(choice, &QComboBox::currentIndexChanged, this, &RelinkDialog::update_state);
     table_->setCellWidget(row, 2, choice);
     choices_.push_back(choice);
@@ -91,9 +91,9 @@ RelinkDialog::RelinkDialog(Session& session, const KnownFiles& known, std::vecto
   auto* row = new QHBoxLayout;
   progress_->setRange(0, 0);
   progress_->setTextVisible(false);
-  progress_->setMaximumWidth(140);
+  progress_->setFixedSize(140, 8);
   progress_->setAccessibleName(tr("Search"));
-  stop_ = new QPushButton(tr("Stop"), this);
+  stop_ = new QPushButton(tr("Stop searching"), this);
   stop_->setAutoDefault(false);
   row->addWidget(state_, 1);
   row->addWidget(progress_);
@@ -102,7 +102,7 @@ RelinkDialog::RelinkDialog(Session& session, const KnownFiles& known, std::vecto
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
   relink_ = buttons->addButton(tr("Relink"), QDialogButtonBox::AcceptRole);
   relink_->setDefault(true);
-  auto* other = buttons->addButton(tr("Look in a folder…"), QDialogButtonBox::ActionRole);
+  auto* other = buttons->addButton(tr("Look in a folder…"), QDialogButtonBox::ResetRole);
   other->setAutoDefault(false);
   column->addWidget(buttons);
   connect(buttons, &QDialogButtonBox::accepted, this, &RelinkDialog::accept);
@@ -126,8 +126,11 @@ void RelinkDialog::search(const QStringList& folders) {
   for (const MissingFile& one : missing_) wanted.push_back({one.path, known_.find(one.path)});
   search_ = std::make_unique<FileSearch>(std::move(wanted), folders);
   connect(search_.get(), &FileSearch::found, this, &RelinkDialog::add_found);
-  connect(search_.get(), &FileSearch::looked_at, this,
-          [this](int files) { state_->setText(tr("%1 files looked at").arg(QLocale().toString(files))); });
+  files_ = 0;
+  connect(search_.get(), &FileSearch::looked_at, this, [this](int files) {
+    files_ = files;
+    update_state();
+  });
   connect(search_.get(), &QThread::finished, this, &RelinkDialog::update_state);
   search_->start();
   update_state();
@@ -152,9 +155,20 @@ void RelinkDialog::update_state() {
   const bool busy = search_ && search_->isRunning();
   progress_->setVisible(busy);
   stop_->setVisible(busy);
-  bool any = false;
-  for (const QComboBox* choice : choices_) any |= choice->currentIndex() > 0;
-  if (relink_) relink_->setEnabled(any);
+  int found = 0, chosen = 0;
+  for (QComboBox* choice : choices_) {
+    found += choice->count() > 1;
+    chosen += choice->currentIndex() > 0;
+    if (choice->count() == 1) choice->setItemText(0, busy ? tr("Searching…") : tr("Nothing found"));
+  }
+  if (relink_) relink_->setEnabled(chosen > 0);
+  const QString looked_at =
+      files_ == 1 ? tr("1 file looked at") : tr("%1 files looked at").arg(QLocale().toString(files_));
+  if (busy || found == int(choices_.size()))
+    state_->setText(looked_at);
+  else
+    state_->setText((found ? looked_at + "." : tr("Nothing was found: %1.").arg(looked_at)) + " " +
+                    tr("Look in another folder, such as an archive."));
 }
 
 void RelinkDialog::accept() {

@@ -33,9 +33,9 @@ class RelinkDialog : public QDialog {
                QWidget* parent = nullptr);
 
   void accept() override;
+  void search(const QStringList& folders);  // instead of what is looked through now
 
  private:
-  void search(const QStringList& folders);
   void add_found(int row, const QString& path, bool same);
   void update_state();
 
@@ -46,6 +46,7 @@ class RelinkDialog : public QDialog {
   QTableWidget* table_;
   std::vector<QComboBox*> choices_;
   QLabel* state_;
+  int files_ = 0;  // looked at so far
   QProgressBar* progress_;
   QPushButton *stop_, *relink_;
 };

@@ -1,9 +1,14 @@
 #include "gui/window/wait_aside.h"
 
+#include <QDialog>
+#include <QDialogButtonBox>
 #include <QEventLoop>
+#include <QLabel>
 #include <QMetaObject>
-#include <QProgressDialog>
+#include <QProgressBar>
+#include <QPushButton>
 #include <QTimer>
+#include <QVBoxLayout>
 
 #include "gui/document/aside.h"
 
@@ -24,13 +29,26 @@ bool wait_aside(QWidget* over, const QString& what, const std::function<void(con
   while (!aside.wait(0) && turns.exec(QEventLoop::ExcludeUserInputEvents) == 0)
     if (over) break;
   if (aside.wait(0)) return true;
-  QProgressDialog dialog(what, QObject::tr("Cancel"), 0, 0, over);
+  QDialog dialog(over);
+  dialog.setObjectName("wait_dialog");
   dialog.setWindowTitle(QObject::tr("Kinegraph"));
   dialog.setWindowModality(Qt::ApplicationModal);
-  dialog.setMinimumSize(340, 104);
-  dialog.setMinimumDuration(0);
-  dialog.setAutoReset(false);
-  QObject::connect(&dialog, &QProgressDialog::canceled, &turns, [&] {
+  auto* column = new QVBoxLayout(&dialog);
+  column->setContentsMargins(16, 14, 16, 14);
+  column->setSpacing(12);
+  column->addWidget(new QLabel(what, &dialog));
+  auto* bar = new QProgressBar(&dialog);
+  bar->setRange(0, 0);
+  bar->setTextVisible(false);
+  bar->setFixedHeight(8);
+  bar->setMinimumWidth(340);
+  bar->setAccessibleName(what);
+  column->addWidget(bar);
+  auto* buttons = new QDialogButtonBox(&dialog);
+  buttons->addButton(QObject::tr("Cancel"), QDialogButtonBox::RejectRole)->setFocus();
+  column->addWidget(buttons);
+  QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
+  QObject::connect(&dialog, &QDialog::rejected, &turns, [&] {
     cancelled = true;
     aside.stop();
   });

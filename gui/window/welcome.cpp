@@ -16,6 +16,7 @@ namespace kinegraph {
 namespace {
 
 constexpr int gap = 10, heading_height = 28, words_height = 124, margin = 16;
+constexpr int most_recent = 4;
 
 // In the order in which a new user should meet them; what else lies in the folder comes last.
 struct Example {
@@ -72,11 +73,25 @@ Welcome::Welcome(QWidget* canvas, const Registry& registry)
   show_where(true);
 }
 
+void Welcome::show_recent(const QStringList& paths) {
+  const QStringList shown = paths.mid(0, most_recent);
+  if (shown == recent_) return;
+  recent_ = shown;
+  if (filled_) fill();
+}
+
 void Welcome::fill() {
-  if (filled_) return;
   filled_ = true;
+  for (const Group& group : groups_) {
+    delete group.heading;
+    qDeleteAll(group.cards);
+  }
+  groups_.clear();
+  QStringList folders;
+  for (const QString& path : recent_) folders << QFileInfo(path).dir().dirName();
+  add_group(tr("Recent"), recent_, folders);
   const QString folder = examples_folder();
-  if (folder.isEmpty()) return;
+  if (folder.isEmpty()) return place();
   QStringList left;
   for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"}, QDir::Files, QDir::Name))
     left << file.absoluteFilePath();
@@ -129,7 +144,7 @@ void Welcome::show_where(bool empty) {
   place();
   // A window that is opened on a graph never shows them, and shouldn't wait for them.
   QTimer::singleShot(0, this, [this] {
-    if (isVisible()) fill();
+    if (isVisible() && !filled_) fill();
   });
 }
 
@@ -196,7 +211,8 @@ void Welcome::paintEvent(QPaintEvent*) {
     x += cap_width(key) + 8 + words + 24;
   }
   if (scroll_->isVisibleTo(this))
-    p.drawText(QRect(0, 94, width(), 26), Qt::AlignCenter, tr("or begin with an example"));
+    p.drawText(QRect(0, 94, width(), 26), Qt::AlignCenter,
+               recent_.isEmpty() ? tr("or begin with an example") : tr("or go on with one of these"));
 }
 
 }  // namespace kinegraph

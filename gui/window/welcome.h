@@ -1,4 +1,5 @@
-// What an empty graph says: how to begin, and the examples as small pictures of their graphs.
+// What an empty graph says: how to begin, and the graphs that were open last and the examples as small
+// pictures of them.
 #pragma once
 #include <QLabel>
 #include <QWidget>
@@ -21,6 +22,7 @@ class Welcome : public QWidget {
   Welcome(QWidget* canvas, const Registry& registry);
   void set_theme(const Theme& theme);
   void show_where(bool empty);
+  void show_recent(const QStringList& paths);  // before the examples
 
  signals:
   void chosen(const QString& path);
@@ -43,6 +45,7 @@ class Welcome : public QWidget {
   QScrollArea* scroll_;
   QWidget* page_;  // of the scroll area
   std::vector<Group> groups_;
+  QStringList recent_;
   bool filled_ = false;
 };
 

@@ -285,7 +285,8 @@ TEST_F(WriteFileAtomically, SaysWhatItCouldNotWriteAndLeavesNothingBehind) {
     FAIL() << "wrote into a folder that isn't there";
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.diagnostic().code, "cannot-write");
-    EXPECT_NE(failure.diagnostic().message.find(path.string()), std::string::npos);
+    EXPECT_EQ(failure.diagnostic().file, path.string());
+    EXPECT_NE(failure.diagnostic().message.find(path.parent_path().string()), std::string::npos);
   }
   fs::create_directory(folder_ / "taken");
   EXPECT_THROW(write_file_atomically((folder_ / "taken").string(), "x"), Failure);

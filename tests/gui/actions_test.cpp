@@ -6,12 +6,15 @@
 
 #include <QDockWidget>
 #include <QFileDialog>
+#include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
 #include <QTimer>
+#include <QTreeWidget>
 #include <set>
 
 #include "gui/viewer/viewer.h"
+#include "gui/window/keys_dialog.h"
 #include "tests/gui/editor.h"
 #include "tests/places.h"
 
@@ -37,13 +40,48 @@ TEST(EditorActions, MenusAndHelpSayAllOfThem) {
   std::set<QString> in_menus;
   for (QMenu* menu : editor.window.menuBar()->findChildren<QMenu*>())
     for (const QAction* action : menu->actions()) in_menus.insert(action->objectName());
-  const QString help = help_page(dark_theme());
+  QStringList help;
+  KeysDialog dialog(dark_theme(), &editor.window);
+  auto* list = dialog.findChild<QTreeWidget*>();
+  for (int i = 0; i < list->topLevelItemCount(); ++i) help << list->topLevelItem(i)->text(2);
   for (const ActionRow& row : all_actions()) {
     if (*row.menu) {
       EXPECT_TRUE(in_menus.count(QString("action_") + row.name)) << row.name;
     }
-    EXPECT_TRUE(help.contains(QString(row.what).toHtmlEscaped())) << row.name;
+    EXPECT_TRUE(help.contains(row.what)) << row.name;
   }
+}
+
+TEST(EditorActions, EveryEntryOfAMenuHasALetterOfItsOwn) {
+  Editor editor;
+  for (QMenu* menu : editor.window.menuBar()->findChildren<QMenu*>()) {
+    std::set<QString> letters;
+    for (const QAction* action : menu->actions()) {
+      if (action->isSeparator() || action->menu() == nullptr && action->objectName().isEmpty()) continue;
+      const qsizetype mark = action->text().indexOf('&');
+      ASSERT_GE(mark, 0) << action->text().toStdString();
+      EXPECT_TRUE(letters.insert(action->text().mid(mark + 1, 1).toLower()).second)
+          << action->text().toStdString() << " in " << menu->title().toStdString();
+    }
+  }
+}
+
+TEST(EditorActions, ALetterOrTwoFindTheirKeys) {
+  Editor editor(true);
+  QStringList shown;
+  bool whole_rows = false;
+  editor.when_asked([&](QWidget& dialog) {
+    auto* list = dialog.findChild<QTreeWidget*>();
+    const int height = list->visualItemRect(list->topLevelItem(0)).height();
+    whole_rows = height > 0 && list->viewport()->height() % height == 0;
+    QTest::keyClicks(dialog.findChild<QLineEdit*>(), "ghosts");
+    for (int i = 0; i < list->topLevelItemCount(); ++i)
+      if (!list->topLevelItem(i)->isHidden()) shown << list->topLevelItem(i)->text(0);
+    QTest::keyClick(&dialog, Qt::Key_Escape);
+  });
+  editor.key(Qt::Key_F1);
+  EXPECT_TRUE(whole_rows);
+  EXPECT_EQ(shown, QStringList({"In the viewer", "G"}));
 }
 
 // Presses the keys of an action and closes whatever dialog or menu comes up.

@@ -1,7 +1,6 @@
 // Pictures of the menus.
 #include <QMenu>
 #include <QMenuBar>
-
 #include <QToolButton>
 
 #include "tests/screenshots/shots.h"

@@ -1,7 +1,6 @@
 // Pictures of the dialogs, the questions and the notices, and of the window in other sizes.
 #include <QFileDialog>
 #include <QMessageBox>
-#include <QProgressDialog>
 #include <QPushButton>
 #include <QThread>
 
@@ -75,17 +74,6 @@ void troubles(const Theme& theme, const QDir& into, const QString& end) {
     shot.take("damaged_clip" + end);
   }
   {
-    Shot first(theme, into);
-    const QString path = first.text(R"("walk": {"type": "Gait"})");
-    first.canvas().add("Filter", {260, 0});
-    first.wait(2600);
-    Shot second(theme, into);
-    second.window.open(path);
-    second.wait();
-    second.take("autosave" + end);
-    second.session().discard_found();
-  }
-  {
     Shot shot(theme, into);
     shot.open("sneaky_walk");
     shot.take_popup("keys" + end, [&] { shot.window.action("keys")->trigger(); });
@@ -111,7 +99,6 @@ void questions(const Theme& theme, const QDir& into, const QString& end) {
     shot.session().show_page(0);
     shot.wait();
     shot.take_popup("run_asks_to_save" + end, [&] { shot.window.action("run")->trigger(); });
-    shot.take_popup("file_dialog" + end, [&] { shot.window.action("open")->trigger(); });
   }
   {
     Shot shot(theme, into);
@@ -152,23 +139,6 @@ void notices(const Theme& theme, const QDir& into, const QString& end) {
   }
   {
     Shot shot(theme, into);
-    const QString path = shot.text(R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}},
-      "soft": {"type": "Filter", "inputs": {"motion": "walk.motion"}})");
-    shot.session().perform([](const Document& d, const Registry& r) {
-      return set_param(d, r, "walk", "file", "clips/run.bvh");
-    });
-    change(path, "walk.bvh", "strut.bvh");
-    shot.wait(1200);
-    for (QPushButton* button : shot.window.findChild<QWidget*>("notice_bar")->findChildren<QPushButton*>())
-      if (button->isVisible() && button->text().startsWith("Merge")) {
-        button->click();
-        break;
-      }
-    shot.wait();
-    shot.take("merge_conflict" + end);
-  }
-  {
-    Shot shot(theme, into);
     const QString path = shot.text(R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}})");
     change(path, "}", "");
     shot.wait(1200);
@@ -199,7 +169,6 @@ void refusals(const Theme& theme, const QDir& into, const QString& end) {
     Shot shot(theme, into);
     const QString path = shot.text(R"("gait": {"type": "Gait"})");
     shot.canvas().add("Filter", {260, 0});
-    shot.take_popup("save_dialog" + end, [&] { shot.window.action("save_as")->trigger(); });
     QDir(QFileInfo(path).absolutePath()).removeRecursively();
     shot.take_popup("save_failed" + end, [&] { shot.window.action("save")->trigger(); });
   }
@@ -218,16 +187,11 @@ void refusals(const Theme& theme, const QDir& into, const QString& end) {
 
 void rarer_dialogs(const Theme& theme, const QDir& into, const QString& end) {
   Shot shot(theme, into);
-  const QString path = shot.text(R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}},
-    "soft": {"type": "Filter", "inputs": {"motion": "walk.motion"}})");
-  shot.take_popup("folder_dialog" + end,
-                  [&] { ask_for_folder(&shot.window, "Look in a folder", QFileInfo(path).absolutePath()); });
-  shot.session().select({"walk", "soft"}, "soft");
-  shot.take_popup("collapse_dialog" + end, [&] { shot.window.action("collapse")->trigger(); });
+  shot.text(R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}})");
   QTimer::singleShot(1500, [&] {
-    if (auto* dialog = qobject_cast<QProgressDialog*>(QApplication::activeModalWidget())) {
+    if (auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget())) {
       shot.take_widget("opening" + end, dialog);
-      dialog->cancel();
+      dialog->reject();
     }
   });
   QElapsedTimer clock;

@@ -20,7 +20,8 @@
 namespace kinegraph::shots {
 
 struct Shot {
-  Shot(const Theme& theme, const QDir& into, QSize size = {1280, 800}) : into_(into) {
+  Shot(const Theme& theme, const QDir& into, QSize size = {1280, 800}, bool remember = false)
+      : window(registry, {.remember = remember, .ask = true, .cache_folder = {}}), into_(into) {
     window.set_theme(theme);
     window.resize(size);
     window.show();
@@ -144,7 +145,7 @@ struct Shot {
 
   QTemporaryDir folder;
   Registry registry = all_nodes();
-  MainWindow window{registry, {.remember = false, .ask = true, .cache_folder = {}}};
+  MainWindow window;
 
  private:
   QDir into_;
@@ -156,5 +157,6 @@ void viewer_pictures(const Theme& theme, const QDir& into, const QString& end);
 void dock_pictures(const Theme& theme, const QDir& into, const QString& end);
 void menu_pictures(const Theme& theme, const QDir& into, const QString& end);
 void message_pictures(const Theme& theme, const QDir& into, const QString& end);
+void file_pictures(const Theme& theme, const QDir& into, const QString& end);
 
 }  // namespace kinegraph::shots

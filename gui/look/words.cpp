@@ -1,0 +1,43 @@
+#include "gui/look/words.h"
+
+#include <QGridLayout>
+#include <QLabel>
+#include <QMessageBox>
+#include <algorithm>
+
+namespace kinegraph {
+namespace {
+
+constexpr int widest_message = 420, narrowest_message = 300;
+
+QSize taken(const QFontMetrics& metrics, const QString& text, int width) {
+  return metrics.boundingRect(QRect(0, 0, width, 1 << 20), Qt::TextWordWrap, text).size();
+}
+
+}  // namespace
+
+int balanced_width(const QFontMetrics& metrics, const QString& text, int widest) {
+  const int high = taken(metrics, text, widest).height();
+  int too_narrow = 0, wide_enough = widest;
+  while (wide_enough - too_narrow > 1) {
+    const int middle = (too_narrow + wide_enough) / 2;
+    const QSize size = taken(metrics, text, middle);
+    (size.height() > high || size.width() > middle ? too_narrow : wide_enough) = middle;
+  }
+  return wide_enough;
+}
+
+int ask(QMessageBox& box) {
+  for (QLabel* label : box.findChildren<QLabel*>()) label->setTextFormat(Qt::PlainText);
+  if (auto* words = box.findChild<QLabel*>("qt_msgbox_informativelabel")) {
+    words->ensurePolished();
+    int width = narrowest_message;
+    for (const QString& line : box.informativeText().split('\n'))
+      width = std::max(width, balanced_width(words->fontMetrics(), line, widest_message));
+    words->setFixedWidth(width + 4);
+    if (auto* grid = qobject_cast<QGridLayout*>(box.layout())) grid->setAlignment(words, Qt::AlignLeft);
+  }
+  return box.exec();
+}
+
+}  // namespace kinegraph
