@@ -55,8 +55,8 @@ Theme make_dark() {
   t.right = 0xffeb8f6b;
   t.second = 0xff9fd48a;
   t.shadow = QColor(0, 0, 0, 110);
-  t.stretch_short = 0xff3f7fe0;
-  t.stretch_long = 0xffe5533d;
+  t.stretch_short = 0xff86d92f;
+  t.stretch_long = 0xfff0318f;
   return t;
 }
 
@@ -93,8 +93,8 @@ Theme make_light() {
   t.right = 0xffb9562c;
   t.second = 0xff4d8a35;
   t.shadow = QColor(20, 30, 40, 60);
-  t.stretch_short = 0xff2b62c0;
-  t.stretch_long = 0xffc23a26;
+  t.stretch_short = 0xff4f9a00;
+  t.stretch_long = 0xffd6006e;
   return t;
 }
 
@@ -162,12 +162,14 @@ QToolBar#viewer_bar { spacing: 1px; padding: 3px 4px; }
 QToolBar#viewer_bar > QToolButton { padding: 4px 4px; }
 QToolButton:hover { background: %2; }
 QToolButton:checked { background: %6; }
+QToolButton:disabled, QToolButton:checked:disabled { background: transparent; }
 QPushButton { background: %2; border: 1px solid %3; border-radius: 4px; padding: 5px 14px; }
 QPushButton:hover { border-color: %5; }
 QPushButton:default { background: %6; border-color: %6; }
 QPushButton:disabled { color: %7; }
 QLineEdit, QPlainTextEdit, QComboBox { background: %8; border: 1px solid %3; border-radius: 4px; padding: 3px 6px; selection-background-color: %6; }
 QComboBox > QLineEdit { border: none; padding: 0px; margin: 0px; background: transparent; }
+QComboBox:disabled { color: %7; background: transparent; }
 QComboBox::drop-down { border: none; width: 18px; }
 QComboBox::down-arrow { image: url(:/kinegraph/arrow_down.png); width: 10px; height: 10px; }
 QComboBox QAbstractItemView { background: %2; border: 1px solid %3; selection-background-color: %6; outline: none; }

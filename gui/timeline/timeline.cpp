@@ -16,7 +16,8 @@
 namespace kinegraph {
 namespace {
 constexpr double speeds[] = {0.1, 0.25, 0.5, 1, 2, 4};
-}
+constexpr int patience_ms = 250;
+}  // namespace
 
 Timeline::Timeline(Session& session, Evaluation& evaluation, Playback& playback, Viewer& viewer,
                    QWidget* parent)
@@ -28,6 +29,12 @@ Timeline::Timeline(Session& session, Evaluation& evaluation, Playback& playback,
       theme_(&dark_theme()) {
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(tr("Timeline"));
+  patience_.setSingleShot(true);
+  patience_.setInterval(patience_ms);
+  connect(&patience_, &QTimer::timeout, this, [this] {
+    playable_ = false;
+    take_values();
+  });
   build();
   connect(&session_, &Session::selection_changed, this, &Timeline::find_wanted);
   connect(&session_, &Session::meaning_changed, this, &Timeline::find_wanted);
@@ -116,7 +123,8 @@ std::vector<Target> Timeline::wanted() const {
 
 void Timeline::keyPressEvent(QKeyEvent* event) {
   const int step = event->modifiers() & Qt::ShiftModifier ? 10 : 1;
-  if (event->modifiers() & (Qt::ControlModifier | Qt::AltModifier)) return QWidget::keyPressEvent(event);
+  if (!playable_ || event->modifiers() & (Qt::ControlModifier | Qt::AltModifier))
+    return QWidget::keyPressEvent(event);
   switch (event->key()) {
     case Qt::Key_Space:
       return playback_.toggle();
@@ -199,8 +207,8 @@ std::optional<Target> Timeline::nearest_warp(const Document& document, const Reg
 QString Timeline::why_not(const std::string& node) const {
   using State = NodeStatus::State;
   const NodeStatus* status = evaluation_.status(node);
-  if (!status) return {};
-  switch (status->state) {
+  if (session_.is_read_only()) return tr("can't be computed here, as a newer Kinegraph made the graph");
+  switch (status ? status->state : State::idle) {
     case State::failed:
     case State::missing:
       return tr("failed, so there is nothing to play");
@@ -212,15 +220,32 @@ QString Timeline::why_not(const std::string& node) const {
       return tr("was cancelled");
     case State::waiting:
       return tr("waits for its turn");
-    case State::running:
-      return tr("is being evaluated…");
     default:
-      return {};
+      return tr("is being evaluated…");
   }
+}
+
+bool Timeline::may_wait_for(const std::string& node) const {
+  using State = NodeStatus::State;
+  const NodeStatus* status = evaluation_.status(node);
+  const State state = status ? status->state : State::idle;
+  return !session_.is_read_only() &&
+         (state == State::idle || state == State::waiting || state == State::running || state == State::done);
 }
 
 void Timeline::take_values() {
   const Viewer::Shown* main = nullptr;
+  const auto& shown = viewer_.shown();
+  const bool any =
+      std::any_of(shown.begin(), shown.end(), [](const auto& one) { return one.motion != nullptr; });
+  if (any) {
+    patience_.stop();
+  } else if (shown.empty() || !may_wait_for(shown.front().target.node)) {
+    playback_.pause();  // else it would go on unseen
+  } else if (playable_) {
+    if (!patience_.isActive()) patience_.start();
+    return;
+  }
   std::vector<TimelineTracks::Row> rows;
   std::shared_ptr<const Warp> warp;
   if (!warp_.node.empty())
@@ -234,26 +259,38 @@ void Timeline::take_values() {
     row(reference_, theme_->second);
   }
   const QColor colors[] = {theme_->accent, theme_->second, theme_->warning, theme_->missing, theme_->good};
-  for (std::size_t i = 0; i < viewer_.shown().size(); ++i) {
-    const Viewer::Shown& one = viewer_.shown()[i];
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const Viewer::Shown& one = shown[i];
     if (one.motion && !main) main = &one;
     const QString name = QString::fromStdString(one.target.node);
     const bool there =
         std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.motion == one.motion; });
     if (!there)
       rows.push_back({name, colors[i % std::size(colors)], one.motion,
-                      one.motion ? QString() : why_not(one.target.node)});
+                      one.motion ? QString() : why_not(one.target.node), one.contacts()});
   }
   if (main) playback_.set_clip(main->motion->fps, main->motion->frames);
   const bool with_warp = warp && rows.size() >= 2 && !source_.node.empty();
   tracks_->set_warp(with_warp && !warp->identity ? warp : nullptr);
   tracks_->set_rows(std::move(rows));
+  set_playable(main != nullptr);
+}
+
+void Timeline::set_playable(bool playable) {
+  if (playable == playable_ && play_->isEnabled() == playable) return;
+  playable_ = playable;
+  for (const auto& [button, icon] : buttons_) button->setEnabled(playable);
+  speed_->setEnabled(playable);
+  update_moment();
 }
 
 void Timeline::update_state() {
+  QColor unusable = theme_->faint_text;
+  unusable.setAlpha(85);
   for (const auto& [button, icon] : buttons_) {
     const bool pausing = icon == TransportIcon::play && playback_.is_playing();
-    button->setIcon(transport_icon(pausing ? TransportIcon::pause : icon, theme_->text, devicePixelRatioF()));
+    button->setIcon(
+        transport_icon(pausing ? TransportIcon::pause : icon, theme_->text, unusable, devicePixelRatioF()));
   }
   const QSignalBlocker quiet(loop_);
   loop_->setChecked(playback_.loops());
@@ -263,7 +300,7 @@ void Timeline::update_state() {
 }
 
 void Timeline::update_moment() {
-  if (!playback_.frames()) return moment_->clear();
+  if (!playback_.frames() || !playable_) return moment_->clear();
   moment_->setText(tr("frame %1 of %2   %3 s   %4 fps")
                        .arg(playback_.frame())
                        .arg(playback_.frames())

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/look/hairline.h"
+
 namespace kinegraph {
 namespace {
 
@@ -34,8 +36,12 @@ QString lane_name(const FootPoint& point) {
   return QObject::tr(point.left ? "L %1" : "R %1").arg(QString::fromStdString(point.part));
 }
 
+const std::vector<FootPoint>& points_of(const TimelineTracks::Row& row) {
+  return row.contacts ? row.contacts->points : row.motion->contacts.points;
+}
+
 std::size_t lanes_of(const TimelineTracks::Row& row) {
-  return row.motion ? row.motion->contacts.points.size() : 0;
+  return row.motion ? points_of(row).size() : 0;
 }
 
 }  // namespace
@@ -44,6 +50,7 @@ TimelineTracks::TimelineTracks(Playback& playback, QWidget* parent)
     : QWidget(parent), playback_(playback), theme_(&dark_theme()) {
   setMouseTracking(true);
   setAccessibleName(tr("Frames of the clip"));
+  setAccessibleDescription(why_nothing());
   connect(&playback_, &Playback::moved, this, qOverload<>(&QWidget::update));
   connect(&playback_, &Playback::state_changed, this, qOverload<>(&QWidget::update));
   connect(&playback_, &Playback::clip_changed, this, [this] {
@@ -54,6 +61,7 @@ TimelineTracks::TimelineTracks(Playback& playback, QWidget* parent)
 
 void TimelineTracks::set_rows(std::vector<Row> rows) {
   rows_ = std::move(rows);
+  setAccessibleDescription(why_nothing());
   fit_gutter();
   update();
 }
@@ -66,10 +74,19 @@ void TimelineTracks::fit_gutter() {
   for (const Row& row : rows_) {
     names = std::max(names, QFontMetricsF(font()).horizontalAdvance(row.name));
     if (!row.motion) continue;
-    for (const FootPoint& point : row.motion->contacts.points)
+    for (const FootPoint& point : points_of(row))
       lane_names_ = std::max(lane_names_, small.horizontalAdvance(lane_name(point)) + 8);
   }
   gutter_ = std::clamp(22 + names + 10 + lane_names_, least_gutter, most_gutter);
+}
+
+QString TimelineTracks::why_nothing() const {
+  if (any_motion()) return {};
+  QString words = tr("No motion is shown, so there is nothing to play.");
+  if (!rows_.empty() && !rows_.front().why_not.isEmpty())
+    words = tr("%1 %2").arg(rows_.front().name, rows_.front().why_not);
+  if (!words.endsWith('.') && !words.endsWith(QStringLiteral("…"))) words += '.';
+  return words;
 }
 
 bool TimelineTracks::any_motion() const {
@@ -125,16 +142,13 @@ void TimelineTracks::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), theme_->panel);
   painter.setRenderHint(QPainter::Antialiasing);
-  paint_ruler(painter);
-  if (!any_motion() && playback_.frames() == 0) {
-    QString words = tr("No motion is shown, so there is nothing to play.");
-    if (!rows_.empty() && !rows_.front().why_not.isEmpty())
-      words = tr("%1 %2").arg(rows_.front().name, rows_.front().why_not);
-    if (!words.endsWith('.') && !words.endsWith(QStringLiteral("…"))) words += '.';
+  if (!any_motion()) {
     painter.setPen(theme_->faint_text);
-    painter.drawText(rect().adjusted(0, static_cast<int>(ruler), 0, 0), Qt::AlignCenter, words);
+    painter.drawText(rect().adjusted(12, 0, -12, 0), Qt::AlignCenter | Qt::TextWordWrap,
+                     accessibleDescription());
     return paint_focus(painter);
   }
+  paint_ruler(painter);
   painter.save();
   for (std::size_t i = 0; i < rows_.size(); ++i) paint_row(painter, rows_[i], row_rect(i));
   if (warp_ && rows_.size() >= 2) paint_warp(painter, row_rect(0), row_rect(1));
@@ -146,14 +160,12 @@ void TimelineTracks::paintEvent(QPaintEvent*) {
     const double in = x_of(playback_.in()), out = x_of(playback_.out());
     painter.fillRect(QRectF(gutter_, ruler, std::max(0.0, in - gutter_), height()), dim);
     painter.fillRect(QRectF(out, ruler, std::max(0.0, width() - out), height()), dim);
-    painter.setPen(QPen(theme_->good, 2));
-    painter.drawLine(QPointF(in, ruler - 6), QPointF(in, height()));
-    painter.drawLine(QPointF(out, ruler - 6), QPointF(out, height()));
+    for (double end : {in, out})
+      draw_hairline(painter, QPointF(end, ruler - 6), QPointF(end, height()), theme_->good, 2);
   }
   if (const QRectF head = playhead(); !head.isNull()) {
     const double at = x_of(playback_.time() * playback_.fps());
-    painter.setPen(QPen(theme_->accent, 1.5));
-    painter.drawLine(QPointF(at, ruler - 4), QPointF(at, height()));
+    draw_hairline(painter, QPointF(at, ruler - 4), QPointF(at, height()), theme_->accent, 2);
     painter.setPen(Qt::NoPen);
     painter.setBrush(theme_->accent);
     painter.drawRoundedRect(head, 3, 3);
@@ -171,17 +183,12 @@ QRectF TimelineTracks::playhead() const {
 }
 
 void TimelineTracks::paint_focus(QPainter& painter) const {
-  if (!hasFocus()) return;
-  painter.setPen(QPen(theme_->accent, 1));
-  painter.setBrush(Qt::NoBrush);
-  painter.drawRect(QRectF(0.5, 0.5, width() - 1, height() - 1));
+  if (hasFocus()) draw_hair_frame(painter, QRectF(rect()), theme_->accent);
 }
 
 void TimelineTracks::paint_ruler(QPainter& painter) {
   painter.fillRect(QRectF(0, 0, width(), ruler), theme_->window);
-  painter.setPen(theme_->line);
-  painter.drawLine(QPointF(0, ruler), QPointF(width(), ruler));
-  if (!any_motion() && playback_.frames() == 0) return;
+  draw_hairline(painter, QPointF(0, ruler), QPointF(width(), ruler), theme_->line);
   const double frames_a_pixel = frame_at(gutter_ + 1) - frame_at(gutter_);
   const double step = nice_step(70 * frames_a_pixel);
   painter.setPen(theme_->faint_text);
@@ -189,8 +196,7 @@ void TimelineTracks::paint_ruler(QPainter& painter) {
   const double end = frame_at(width());
   for (double frame = std::max(0.0, std::ceil(first_ / step) * step); frame <= end; frame += step) {
     const double x = x_of(frame);
-    painter.setPen(theme_->line);
-    painter.drawLine(QPointF(x, ruler - 6), QPointF(x, height()));
+    draw_hairline(painter, QPointF(x, ruler - 6), QPointF(x, height()), theme_->line);
     const QString number = QString::number(static_cast<int>(frame));
     const double wide = painter.fontMetrics().horizontalAdvance(number);
     if (QRectF(x - wide / 2 - 3, 0, wide + 6, ruler).intersects(playhead())) continue;
@@ -220,10 +226,9 @@ void TimelineTracks::paint_row(QPainter& painter, const Row& row, const QRectF& 
   const double scale = playback_.fps() / motion.fps;
   const QRectF body(x_of(0), where.top(), x_of(motion.frames * scale) - x_of(0), where.height());
   painter.setClipRect(QRectF(gutter_ - 2, 0, width(), height()));
-  QColor back = theme_->raised;
-  painter.setBrush(back);
-  painter.setPen(QPen(theme_->line, 1));
-  painter.drawRoundedRect(body, 3, 3);
+  const QRectF plate = on_pixels(painter, body);
+  painter.fillRect(plate, theme_->raised);
+  draw_hair_frame(painter, plate, theme_->line);
   if (named) {
     painter.setClipping(false);
     const QFont usual = painter.font();
@@ -232,22 +237,21 @@ void TimelineTracks::paint_row(QPainter& painter, const Row& row, const QRectF& 
     for (std::size_t i = 0; i < lanes; ++i)
       painter.drawText(QRectF(gutter_ - 7 - lane_names_,
                               where.top() + lane_pad + static_cast<double>(i) * lane, lane_names_, lane - 1),
-                       Qt::AlignVCenter | Qt::AlignRight | Qt::TextDontClip,
-                       lane_name(motion.contacts.points[i]));
+                       Qt::AlignVCenter | Qt::AlignRight | Qt::TextDontClip, lane_name(points_of(row)[i]));
     painter.setFont(usual);
     painter.setClipping(true);
   }
   painter.setPen(Qt::NoPen);
   for (std::size_t i = 0; i < lanes; ++i) {
-    const FootPoint& point = motion.contacts.points[i];
+    const FootPoint& point = points_of(row)[i];
     QColor color = point.left ? theme_->left : theme_->right;
     if (point.part == "ball") color = theme_->dark ? color.lighter(122) : color.darker(118);
-    painter.setBrush(color);
     for (const Run& run : runs_of(point.planted)) {
       const double from = x_of(static_cast<double>(run.start) * scale),
                    to = x_of(static_cast<double>(run.end) * scale);
-      painter.drawRect(QRectF(from, where.top() + lane_pad + static_cast<double>(i) * lane,
-                              std::max(1.0, to - from), std::max(1.0, lane - 1)));
+      painter.fillRect(on_pixels(painter, QRectF(from, where.top() + lane_pad + static_cast<double>(i) * lane,
+                                                 std::max(1.0, to - from), std::max(1.0, lane - 1))),
+                       color);
     }
   }
   painter.setClipping(false);
@@ -291,7 +295,7 @@ QString TimelineTracks::told_at(QPointF at) const {
     if (!row.motion || !where.contains(at)) continue;
     const double scale = playback_.fps() / row.motion->fps;
     QString words = tr("%1, frame %2").arg(row.name).arg(std::max(0, frame));
-    const auto& points = row.motion->contacts.points;
+    const auto& points = points_of(row);
     if (points.empty() || at.x() < gutter_) return words;
     const double lane = (where.height() - 2 * lane_pad) / static_cast<double>(points.size());
     const int over = static_cast<int>(std::floor((at.y() - where.top() - lane_pad) / lane));
@@ -320,6 +324,7 @@ bool TimelineTracks::event(QEvent* event) {
 
 void TimelineTracks::mousePressEvent(QMouseEvent* event) {
   setFocus(Qt::MouseFocusReason);
+  if (!any_motion()) return;
   const double x = event->position().x();
   if (event->button() == Qt::MiddleButton) {
     drag_ = Drag::pan;

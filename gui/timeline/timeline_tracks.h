@@ -20,7 +20,8 @@ class TimelineTracks : public QWidget {
     QString name;
     QColor color;
     std::shared_ptr<const ShownMotion> motion;
-    QString why_not = {};  // there is no motion, where that won't change by itself
+    QString why_not = {};                           // why there is no motion
+    std::shared_ptr<const Contacts> contacts = {};  // null: those found in the motion
   };
 
   explicit TimelineTracks(Playback& playback, QWidget* parent = nullptr);
@@ -55,6 +56,7 @@ class TimelineTracks : public QWidget {
   void paint_focus(QPainter& painter) const;
   void fit_gutter();
   bool any_motion() const;
+  QString why_nothing() const;  // in words where no row has a motion, else ""
   void paint_row(QPainter& painter, const Row& row, const QRectF& where);
   void paint_warp(QPainter& painter, const QRectF& upper, const QRectF& lower);
   QRectF row_rect(std::size_t index) const;

@@ -21,9 +21,7 @@ void bracket(QPainter& painter, const QColor& color, bool opens) {
                                    << QPointF(lip, 14.5));
 }
 
-}  // namespace
-
-QIcon transport_icon(TransportIcon icon, const QColor& color, double pixel_ratio) {
+QPixmap drawn(TransportIcon icon, const QColor& color, double pixel_ratio) {
   QPixmap pixmap(QSize(18, 18) * pixel_ratio);
   pixmap.setDevicePixelRatio(pixel_ratio);
   pixmap.fill(Qt::transparent);
@@ -73,7 +71,15 @@ QIcon transport_icon(TransportIcon icon, const QColor& color, double pixel_ratio
       bracket(painter, color, false);
       break;
   }
-  return QIcon(pixmap);
+  return pixmap;
+}
+
+}  // namespace
+
+QIcon transport_icon(TransportIcon icon, const QColor& color, const QColor& unusable, double pixel_ratio) {
+  QIcon both(drawn(icon, color, pixel_ratio));
+  both.addPixmap(drawn(icon, unusable, pixel_ratio), QIcon::Disabled);
+  return both;
 }
 
 }  // namespace kinegraph

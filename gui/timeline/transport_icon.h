@@ -6,6 +6,7 @@
 namespace kinegraph {
 
 enum class TransportIcon { start, back, play, pause, forward, end, loop, in, out };
-QIcon transport_icon(TransportIcon icon, const QColor& color, double pixel_ratio);
+// In one colour where the button can be pressed, in another where it can't.
+QIcon transport_icon(TransportIcon icon, const QColor& color, const QColor& unusable, double pixel_ratio);
 
 }  // namespace kinegraph

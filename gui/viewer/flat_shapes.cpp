@@ -5,7 +5,7 @@
 namespace kinegraph {
 namespace {
 
-constexpr int corners = 20;
+constexpr int corners = 32;
 
 FlatPoint point_of(QVector3D at, QRgb color, float strength) {
   return {at.x(),
@@ -22,12 +22,17 @@ FlatPoint point_of(QVector3D at, QRgb color, float strength) {
 std::vector<FlatPoint> flat_marks(const Scene& scene) {
   std::vector<FlatPoint> out;
   for (const SceneMark& mark : scene.marks) {
-    const auto rim = [&](int k) {
-      const float angle = 6.2831853f * static_cast<float>(k) / corners;
-      return mark.at + mark.radius * QVector3D(std::cos(angle), 0, std::sin(angle));
+    const auto rim = [&](int k, float share) {
+      const float angle = 6.2831853f * static_cast<float>(k % corners) / corners;
+      return mark.at + share * mark.radius * QVector3D(std::cos(angle), 0, std::sin(angle));
     };
-    for (int k = 0; k < corners; ++k)
-      for (const QVector3D& at : {mark.at, rim(k), rim(k + 1)}) out.push_back(point_of(at, mark.color, 1));
+    for (int k = 0; k < corners; ++k) {
+      for (const QVector3D& at : {mark.at, rim(k, mark_inside), rim(k + 1, mark_inside)})
+        out.push_back(point_of(at, mark.color, mark_strength));
+      for (const QVector3D& at : {rim(k, mark_inside), rim(k, 1), rim(k + 1, mark_inside),
+                                  rim(k + 1, mark_inside), rim(k, 1), rim(k + 1, 1)})
+        out.push_back(point_of(at, mark.color, 1));
+    }
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <QOpenGLFramebufferObject>
 #include <QOpenGLShaderProgram>
 #include <QOpenGLVertexArrayObject>
+#include <QVector2D>
 #include <cmath>
 #include <stdexcept>
 
@@ -95,7 +96,7 @@ void main() {
   float sky = 0.5 + 0.5 * n.y;
   float head = max(dot(n, toward), 0.0);
   float shine = pow(max(dot(n, normalize(light + toward)), 0.0), 24.0);
-  vec3 lit = base.rgb * (0.34 + 0.20 * sky + 0.42 * key + 0.18 * head) + vec3(0.10 * shine);
+  vec3 lit = base.rgb * (0.27 + 0.19 * sky + 0.50 * key + 0.18 * head) + vec3(0.10 * shine);
   picture = vec4(lit, opacity);
 }
 )";
@@ -119,6 +120,8 @@ uniform float grid;
 uniform vec3 ground;
 uniform vec3 ground_line;
 uniform float fill;
+uniform vec2 fades;
+uniform float quarters;
 out vec4 picture;
 float lines(float step, vec2 width) {
   vec2 away = abs(fract(at / step - 0.5) - 0.5) * step;
@@ -129,8 +132,8 @@ float lines(float step, vec2 width) {
 }
 void main() {
   vec2 width = vec2(length(vec2(dFdx(at.x), dFdy(at.x))), length(vec2(dFdx(at.y), dFdy(at.y))));
-  float line = max(lines(grid, width), 0.35 * lines(grid * 0.25, width));
-  float fade = 1.0 - smoothstep(0.25, 0.95, length(at - middle.xz) / reach);
+  float line = max(lines(grid, width), quarters * lines(grid * 0.25, width));
+  float fade = 1.0 - smoothstep(fades.x, fades.y, length(at - middle.xz) / reach);
   picture = vec4(mix(ground, ground_line, line), fade * max(fill, line));
 }
 )";
@@ -306,12 +309,14 @@ QOpenGLFramebufferObject& GlPainter::State::target(QSize size, bool smooth_one) 
 void GlPainter::State::draw_floor(const ScenePicture& picture, const Scene& scene, const OrbitCamera& camera,
                                   const QMatrix4x4& m) {
   const bool from_below = camera.eye().y() < scene.floor;
-  glDepthMask(from_below ? GL_FALSE : GL_TRUE);
+  glDepthMask(GL_FALSE);  // a foot that sinks in is seen to, and not cut off
   floor.bind();
   floor.setUniformValue("world_to_picture", m);
   floor.setUniformValue("middle", QVector3D(camera.target.x(), scene.floor, camera.target.z()));
-  floor.setUniformValue("reach", camera.distance * 4 + 6 * scene.grid);
+  floor.setUniformValue("reach", floor_reach(camera, scene));
   floor.setUniformValue("grid", scene.grid);
+  floor.setUniformValue("fades", QVector2D(floor_fades_from, floor_fades_to));
+  floor.setUniformValue("quarters", quarter_lines);
   floor.setUniformValue("ground", rgb_of(picture.colors.ground));
   floor.setUniformValue("ground_line", rgb_of(picture.colors.ground_line));
   floor.setUniformValue("fill", from_below ? 0.0f : 1.0f);

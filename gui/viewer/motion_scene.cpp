@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace kinegraph {
 namespace {
@@ -22,11 +23,14 @@ QRgb side_color(ShownMotion::Side side, const SceneLooks& looks, const Theme& th
   return looks.second ? mixed(theme.second, plain, 0.25) : plain.rgb();
 }
 
-// Shorter links turn blue, longer ones red; a tenth is full colour.
-QRgb stretched_color(QRgb plain, float stretch, const Theme& theme) {
-  const double much = std::clamp((static_cast<double>(stretch) - 1) / 0.1, -1.0, 1.0);
-  if (std::abs(stretch - 1) < ShownMotion::least_stretch) return plain;
-  return mixed(QColor::fromRgb(plain), much > 0 ? theme.stretch_long : theme.stretch_short, std::abs(much));
+// Of how much longer or shorter a link is than at rest; a tenth is full colour. Sides pale before it: what
+// is stretched is told by hue.
+QRgb stretched_color(QRgb side, float stretch, const Theme& theme) {
+  constexpr double full = 0.1, paled = 0.02;
+  const double much = std::clamp((static_cast<double>(stretch) - 1) / full, -1.0, 1.0);
+  const double pale = std::clamp(std::abs(static_cast<double>(stretch) - 1) / paled, 0.0, 1.0);
+  const QColor ground = QColor::fromRgb(mixed(QColor::fromRgb(side), theme.bone, 0.9 * pale));
+  return mixed(ground, much > 0 ? theme.stretch_long : theme.stretch_short, std::pow(std::abs(much), 0.8));
 }
 
 SceneFigure figure_of(const ShownMotion& motion, int frame, const SceneLooks& looks, const Theme& theme) {
@@ -39,9 +43,15 @@ SceneFigure figure_of(const ShownMotion& motion, int frame, const SceneLooks& lo
     const QVector3D from = at(bone.from), to = at(bone.to);
     if (std::isnan(from.x()) || std::isnan(to.x())) continue;
     QRgb color = side_color(bone.side, looks, theme);
-    if (looks.stretch && !motion.stretch.empty())
-      color = stretched_color(
-          color, motion.stretch[static_cast<std::size_t>(frame) * motion.bones.size() + i], theme);
+    QRgb ball = joint_color;
+    if (looks.stretch && !motion.stretch.empty()) {
+      const float stretch = motion.stretch[static_cast<std::size_t>(frame) * motion.bones.size() + i];
+      color = stretched_color(color, stretch, theme);
+      // The balls of a chain of many joints would cut its colour to pieces.
+      if (std::abs(stretch - 1) >= ShownMotion::least_stretch)
+        ball = mixed(QColor::fromRgb(joint_color), QColor::fromRgb(color),
+                     std::min(0.85, 20.0 * std::abs(static_cast<double>(stretch) - 1)));
+    }
     const bool tip = bone.joint < 0;
     if (bone.head) {
       const QVector3D way = to - from;
@@ -53,7 +63,7 @@ SceneFigure figure_of(const ShownMotion& motion, int frame, const SceneLooks& lo
     figure.capsules.push_back({from, to, bone.radius, bone.radius * (tip ? 0.8f : 0.68f), color});
     if (!motion.markers && !tip) {
       // A joint is a ball a little thicker than the bones that meet in it.
-      figure.capsules.push_back({to, to, bone.radius * 0.98f, bone.radius * 0.98f, joint_color});
+      figure.capsules.push_back({to, to, bone.radius * 0.98f, bone.radius * 0.98f, ball});
     }
   }
   if (motion.markers) {
@@ -126,17 +136,29 @@ void add_ghosts(Scene& scene, const ShownMotion& motion, int frame, const SceneL
   }
 }
 
+// Where a point of a foot is: known exactly where it is one of those that were looked for, else its joint.
+ShownMotion::Point3 spot_of(const ShownMotion& motion, const FootPoint& point, std::size_t frame) {
+  const auto& known = motion.contacts.points;
+  for (std::size_t i = 0; i < known.size() && i < motion.contact_spots.size(); ++i)
+    if (known[i].joint == point.joint && known[i].left == point.left && known[i].part == point.part)
+      return motion.contact_spots[i][frame];
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  if (point.joint < 0 || point.joint >= motion.points) return {none, none, none};
+  return motion.at(static_cast<int>(frame), point.joint);
+}
+
 void add_contacts(Scene& scene, const ShownMotion& motion, int frame, const SceneLooks& looks,
                   const Theme& theme) {
-  for (std::size_t i = 0; i < motion.contacts.points.size() && i < motion.contact_spots.size(); ++i) {
-    const FootPoint& point = motion.contacts.points[i];
-    const std::size_t now = static_cast<std::size_t>(frame);
+  const Contacts& contacts = looks.contacts_of ? *looks.contacts_of : motion.contacts;
+  const std::size_t now = static_cast<std::size_t>(frame);
+  for (const FootPoint& point : contacts.points) {
     if (now >= point.planted.size() || !point.planted[now]) continue;
-    const QVector3D at = vector_of(motion.contact_spots[i][now]) + looks.shift;
+    const QVector3D at = vector_of(spot_of(motion, point, now)) + looks.shift;
+    if (std::isnan(at.x())) continue;
     QColor color = point.left ? theme.left : theme.right;
-    color.setAlpha(190);
-    const float radius = static_cast<float>((point.part == "heel" ? 0.03 : 0.038) * motion.size);
-    scene.marks.push_back({QVector3D(at.x(), scene.floor, at.z()), radius, color.rgba()});
+    color = theme.dark ? color.lighter(112) : color.darker(112);
+    const float radius = static_cast<float>((point.part == "heel" ? 0.042 : 0.05) * motion.size);
+    scene.marks.push_back({QVector3D(at.x(), scene.floor, at.z()), radius, color.rgb()});
   }
 }
 

@@ -1,5 +1,6 @@
 // From motions at a moment to the shapes of a scene.
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "gui/look/theme.h"
@@ -14,6 +15,7 @@ struct SceneLooks {
   float opacity = 1;    // of the figure
   bool second = false;  // in the theme's second colour, to be told from another figure
   QVector3D shift;      // where the motion's origin is put
+  std::shared_ptr<const Contacts> contacts_of;  // marked instead of those found in the motion
 };
 
 // Adds a motion at a time to a scene. `character`: a skin to draw instead of bones, or null.

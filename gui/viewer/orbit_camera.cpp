@@ -7,11 +7,17 @@ namespace kinegraph {
 namespace {
 constexpr float degrees = 57.29577951f;
 constexpr float field_of_view = 35;  // degrees, of the shorter side
+
+// Towards the eye, from its angles alone: the same wherever it looks at.
+QVector3D away_of(const OrbitCamera& camera) {
+  return QVector3D(std::cos(camera.pitch) * std::sin(camera.yaw), std::sin(camera.pitch),
+                   std::cos(camera.pitch) * std::cos(camera.yaw));
+}
+
 }  // namespace
 
 QVector3D OrbitCamera::eye() const {
-  const QVector3D away(std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw));
-  return target + distance * away;
+  return target + distance * away_of(*this);
 }
 
 QMatrix4x4 OrbitCamera::view() const {
@@ -34,7 +40,7 @@ QVector3D OrbitCamera::right() const {
 }
 
 QVector3D OrbitCamera::up() const {
-  return QVector3D::crossProduct((eye() - target).normalized(), right());
+  return QVector3D::crossProduct(away_of(*this), right());
 }
 
 void OrbitCamera::orbit(QPointF pixels) {
@@ -60,25 +66,39 @@ void OrbitCamera::frame(QVector3D low, QVector3D high) {
 }
 
 void OrbitCamera::frame_closely(const std::vector<QVector3D>& points, float thickness, double shape) {
-  constexpr float room = 1.1f;  // around it, for captions
+  constexpr float room = 1.12f;  // around it, for captions
   if (points.empty()) return;
   const float half = std::tan(field_of_view / degrees / 2) / room, wide = static_cast<float>(shape);
   const float across = shape >= 1 ? half * wide : half, upwards = shape >= 1 ? half : half / wide;
-  const QVector3D away = (eye() - target).normalized(), side = right(), top = up();
-  QVector3D low = points.front(), high = low;
-  for (const QVector3D& p : points)
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
+  const QVector3D away = away_of(*this), side = right(), top = up();
+  // A point x aside and z nearer is inside where |x - centre| ≤ (distance - z) · slope: of all such lines the
+  // outermost on either side give the centre and the distance.
+  struct Extent {
+    float slope, above = -1e30f, below = -1e30f;
+    void take(float x, float z, float thick) {
+      above = std::max(above, x + thick + z * slope);
+      below = std::max(below, -x + thick + z * slope);
     }
-  target = (low + high) / 2;
-  distance = 0.1f;
+    float centre() const { return (above - below) / 2; }
+    float distance() const { return (above + below) / 2 / slope; }
+  };
+  Extent level{across}, upright{upwards};
+  float nearest = -1e30f;
+  const QVector3D origin = points.front();
   for (const QVector3D& point : points) {
-    const QVector3D p = point - target;
-    const float near_by = QVector3D::dotProduct(p, away) + thickness;
-    distance = std::max({distance, near_by + (std::abs(QVector3D::dotProduct(p, side)) + thickness) / across,
-                         near_by + (std::abs(QVector3D::dotProduct(p, top)) + thickness) / upwards});
+    const QVector3D p = point - origin;
+    const float z = QVector3D::dotProduct(p, away) + thickness;
+    level.take(QVector3D::dotProduct(p, side), z, thickness);
+    upright.take(QVector3D::dotProduct(p, top), z, thickness);
+    nearest = std::max(nearest, z);
   }
+  // The target lies in the middle of the depth, so that the camera turns around it.
+  float farthest = 1e30f;
+  for (const QVector3D& point : points)
+    farthest = std::min(farthest, QVector3D::dotProduct(point - origin, away));
+  const float middle = (nearest + farthest) / 2;
+  target = origin + level.centre() * side + upright.centre() * top + middle * away;
+  distance = std::max(0.1f, std::max(level.distance(), upright.distance()) - middle);
 }
 
 std::optional<QPointF> OrbitCamera::on_picture(QVector3D point, QSizeF size) const {

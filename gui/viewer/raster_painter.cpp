@@ -64,7 +64,7 @@ QColor lit(QRgb base, QVector3D normal, QVector3D toward) {
   const float sky = 0.5f + 0.5f * normal.y();
   const float head = std::max(0.0f, QVector3D::dotProduct(normal, toward));
   const float gleam = std::max(0.0f, QVector3D::dotProduct(normal, (light + toward).normalized()));
-  const float share = 0.34f + 0.20f * sky + 0.42f * key + 0.18f * head;
+  const float share = 0.27f + 0.19f * sky + 0.50f * key + 0.18f * head;
   const float shine = 25.5f * std::pow(gleam, 24.0f);
   const auto part = [&](int c) {
     return std::clamp(static_cast<int>(static_cast<float>(c) * share + shine), 0, 255);
@@ -136,70 +136,127 @@ QVector3D on_floor(QVector3D p, float floor) {
   return p - light * ((p.y() - floor) / light.y());
 }
 
-void paint_floor(QPainter& painter, const Projector& eye, const Scene& scene, const OrbitCamera& camera,
-                 const SceneColors& colors) {
-  const float reach = camera.distance * 3 + 4 * scene.grid;
-  const QVector3D middle(camera.target.x(), scene.floor, camera.target.z());
+// Cuts a line at the plane before the eye; false: nothing of it is seen.
+bool cut_before_eye(QVector3D& from, QVector3D& to, const Projector& eye, const OrbitCamera& camera) {
   const QVector3D sight = (camera.target - camera.eye()).normalized();
-  // Cut at the plane before the eye.
-  const auto cut = [&](QVector3D& from, QVector3D& to) {
-    const float limit = eye.near_by * 1.01f;
-    const float df = QVector3D::dotProduct(from - camera.eye(), sight) - limit;
-    const float dt = QVector3D::dotProduct(to - camera.eye(), sight) - limit;
-    if (df < 0 && dt < 0) return false;
-    if (df < 0) from += (to - from) * (df / (df - dt));
-    if (dt < 0) to += (from - to) * (dt / (dt - df));
-    return true;
+  const float limit = eye.near_by * 1.01f;
+  const float df = QVector3D::dotProduct(from - camera.eye(), sight) - limit;
+  const float dt = QVector3D::dotProduct(to - camera.eye(), sight) - limit;
+  if (df < 0 && dt < 0) return false;
+  if (df < 0) from += (to - from) * (df / (df - dt));
+  if (dt < 0) to += (from - to) * (dt / (dt - df));
+  return true;
+}
+
+QColor between(QRgb from, QRgb to, float share) {
+  const auto part = [&](int a, int b) {
+    return static_cast<int>(std::lround(static_cast<float>(a) + static_cast<float>(b - a) * share));
   };
-  // The ground as rings that fade into the sky.
-  if (camera.eye().y() > scene.floor) {
-    painter.setPen(Qt::NoPen);
-    constexpr int rings = 5, corners = 40;
-    for (int ring = rings; ring >= 1; --ring) {
-      QPolygonF polygon;
-      const float radius = reach * static_cast<float>(ring) / rings;
-      std::vector<QVector3D> rim;
-      for (int k = 0; k < corners; ++k) {
-        const float angle = 6.2831853f * static_cast<float>(k) / corners;
-        rim.push_back(middle + radius * QVector3D(std::cos(angle), 0, std::sin(angle)));
+  return QColor(part(qRed(from), qRed(to)), part(qGreen(from), qGreen(to)), part(qBlue(from), qBlue(to)));
+}
+
+// The ground as discs of ever stronger colour, a step of which isn't seen.
+void paint_ground(QPainter& painter, const Projector& eye, QVector3D middle, float reach,
+                  const OrbitCamera& camera, const SceneColors& colors) {
+  constexpr int rings = 20, corners = 48;
+  painter.setPen(Qt::NoPen);
+  for (int ring = 0; ring <= rings; ++ring) {
+    const float share =
+        floor_fades_to - (floor_fades_to - floor_fades_from) * static_cast<float>(ring) / rings;
+    QPolygonF polygon;
+    const auto rim = [&](int k) {
+      const float angle = 6.2831853f * static_cast<float>(k % corners) / corners;
+      return middle + share * reach * QVector3D(std::cos(angle), 0, std::sin(angle));
+    };
+    for (int k = 0; k < corners; ++k) {
+      QVector3D from = rim(k), to = rim(k + 1);
+      if (cut_before_eye(from, to, eye, camera)) polygon << eye.spot(from) << eye.spot(to);
+    }
+    painter.setBrush(between(colors.sky, colors.ground, floor_strength(share)));
+    painter.drawPolygon(polygon);
+  }
+}
+
+// The floor's lines along one axis, a step apart: each in pieces, that fade with the way from the middle and
+// where lines come nearer together than pixels.
+void paint_floor_lines(QPainter& painter, const Projector& eye, QVector3D middle, float reach, float step,
+                       float strength, int left_out, const OrbitCamera& camera, QRgb color) {
+  constexpr int pieces = 24;
+  const int count = static_cast<int>(std::min(90.0f, floor_fades_to * reach / step));
+  for (int axis = 0; axis < 2; ++axis) {
+    const QVector3D along = axis == 0 ? QVector3D(0, 0, 1) : QVector3D(1, 0, 0);
+    const QVector3D aside = axis == 0 ? QVector3D(1, 0, 0) : QVector3D(0, 0, 1);
+    const float centre = axis == 0 ? middle.x() : middle.z();
+    const int first = static_cast<int>(std::round(centre / step));
+    for (int k = -count; k <= count; ++k) {
+      if (left_out > 1 && (first + k) % left_out == 0) continue;
+      const float away = static_cast<float>(first + k) * step - centre;
+      const float half = std::sqrt(std::max(0.0f, reach * reach - away * away));
+      for (int piece = 0; piece < pieces; ++piece) {
+        // Shorter pieces in the middle, where they are near.
+        const auto way = [&](int i) {
+          const float t = 2 * static_cast<float>(i) / pieces - 1;
+          return half * t * (0.25f + 0.75f * std::abs(t));
+        };
+        QVector3D from = middle + away * aside + way(piece) * along,
+                  to = middle + away * aside + way(piece + 1) * along;
+        if (!cut_before_eye(from, to, eye, camera)) continue;
+        const QVector3D at = (from + to) / 2;
+        const float fade = strength * floor_strength((at - middle).length() / reach);
+        if (fade < 0.02f) continue;
+        const QPointF a = eye.spot(from), b = eye.spot(to), next = eye.spot(at + step * aside);
+        const QPointF line = b - a, across = next - (a + b) / 2;
+        const double length = std::hypot(line.x(), line.y());
+        if (length < 1e-6) continue;
+        const double apart = std::abs(line.x() * across.y() - line.y() * across.x()) / length;
+        QColor ink = QColor::fromRgb(color);
+        ink.setAlphaF(fade * static_cast<float>(std::clamp(apart / 4, 0.0, 1.0)));
+        if (ink.alpha() < 4) continue;
+        painter.setPen(QPen(ink, 1, Qt::SolidLine, Qt::FlatCap));
+        painter.drawLine(a, b);
       }
-      for (int k = 0; k < corners; ++k) {
-        QVector3D from = rim[static_cast<std::size_t>(k)],
-                  to = rim[static_cast<std::size_t>((k + 1) % corners)];
-        if (!cut(from, to)) continue;
-        polygon << eye.spot(from) << eye.spot(to);
-      }
-      QColor ground = QColor::fromRgb(colors.ground);
-      ground.setAlphaF(0.45f);
-      painter.setBrush(ground);
-      painter.drawPolygon(polygon);
     }
   }
-  // Every metre, and fainter every quarter of it near what is looked at.
-  const auto lines = [&](float step, float radius, float strength, int every) {
-    const int count = static_cast<int>(std::min(60.0f, radius / step));
-    const int first_x = static_cast<int>(std::round(middle.x() / step)),
-              first_z = static_cast<int>(std::round(middle.z() / step));
-    for (int k = -count; k <= count; ++k)
-      for (int axis = 0; axis < 2; ++axis) {
-        if (every > 1 && ((axis == 0 ? first_x : first_z) + k) % every == 0) continue;
-        const float x = static_cast<float>(first_x + k) * step;
-        const float z = static_cast<float>(first_z + k) * step;
-        const float away = axis == 0 ? x - middle.x() : z - middle.z();
-        const float half = std::sqrt(std::max(0.0f, radius * radius - away * away));
-        QVector3D from = axis == 0 ? QVector3D(x, scene.floor, middle.z() - half)
-                                   : QVector3D(middle.x() - half, scene.floor, z);
-        QVector3D to = axis == 0 ? QVector3D(x, scene.floor, middle.z() + half)
-                                 : QVector3D(middle.x() + half, scene.floor, z);
-        if (!cut(from, to)) continue;
-        QColor line = QColor::fromRgb(colors.ground_line);
-        line.setAlphaF(strength * std::clamp(1 - std::abs(away) / radius, 0.0f, 1.0f));
-        painter.setPen(QPen(line, 1));
-        painter.drawLine(eye.spot(from), eye.spot(to));
-      }
-  };
-  lines(scene.grid / 4, std::min(reach, 0.8f * camera.distance), 0.4f, 4);
-  lines(scene.grid, reach, 1, 1);
+}
+
+void paint_floor(QPainter& painter, const Projector& eye, const Scene& scene, const OrbitCamera& camera,
+                 const SceneColors& colors) {
+  const float reach = floor_reach(camera, scene);
+  const QVector3D middle(camera.target.x(), scene.floor, camera.target.z());
+  if (camera.eye().y() > scene.floor) paint_ground(painter, eye, middle, reach, camera, colors);
+  paint_floor_lines(painter, eye, middle, reach, scene.grid / 4, quarter_lines, 4, camera,
+                    colors.ground_line);
+  paint_floor_lines(painter, eye, middle, reach, scene.grid, 1, 1, camera, colors.ground_line);
+}
+
+// A disc with a ring around it, each in one piece: triangles would show their seams.
+void paint_marks(QPainter& painter, const Projector& eye, const Scene& scene) {
+  constexpr int corners = 32;
+  painter.setPen(Qt::NoPen);
+  for (const SceneMark& mark : scene.marks) {
+    QPolygonF inside, outside;
+    bool whole = true;
+    for (int k = 0; k < corners; ++k) {
+      const float angle = 6.2831853f * static_cast<float>(k) / corners;
+      const QVector3D way = mark.radius * QVector3D(std::cos(angle), 0, std::sin(angle));
+      whole = whole && eye.visible(mark.at + way);
+      if (!whole) break;
+      inside << eye.spot(mark.at + mark_inside * way);
+      outside << eye.spot(mark.at + way);
+    }
+    if (!whole) continue;
+    QPainterPath ring;
+    ring.addPolygon(outside);
+    ring.closeSubpath();
+    ring.addPolygon(inside);
+    ring.closeSubpath();
+    QColor color = QColor::fromRgba(mark.color);
+    painter.setBrush(color);
+    painter.drawPath(ring);
+    color.setAlphaF(color.alphaF() * mark_strength);
+    painter.setBrush(color);
+    painter.drawPolygon(inside);
+  }
 }
 
 // All triangles the same way round, so that they unite.
@@ -334,7 +391,7 @@ void paint_scene(QPainter& painter, const QRectF& where, const Scene& scene, con
   if (scene.has_floor) {
     paint_floor(painter, eye, scene, camera, colors);
     if (camera.eye().y() > scene.floor) paint_shadows(painter, eye, scene, colors);
-    paint_flats(painter, eye, flat_marks(scene));
+    paint_marks(painter, eye, scene);
   }
   paint_flats(painter, eye, flat_paths(scene, camera.eye()));
   std::vector<std::pair<float, const SceneFigure*>> order;

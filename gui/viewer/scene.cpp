@@ -1,5 +1,7 @@
 #include "gui/viewer/scene.h"
 
+#include <algorithm>
+
 namespace kinegraph {
 
 void pose_meshes(ScenePicture& picture) {
@@ -13,6 +15,15 @@ OrbitCamera camera_of(const ScenePicture& picture, const SceneCell& cell) {
   OrbitCamera camera = picture.camera;
   camera.target += cell.scene.camera_shift;
   return camera;
+}
+
+float floor_reach(const OrbitCamera& camera, const Scene& scene) {
+  return camera.distance * 4 + 6 * scene.grid;
+}
+
+float floor_strength(float share) {
+  const float t = std::clamp((share - floor_fades_from) / (floor_fades_to - floor_fades_from), 0.0f, 1.0f);
+  return 1 - t * t * (3 - 2 * t);
 }
 
 }  // namespace kinegraph

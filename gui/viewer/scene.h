@@ -39,6 +39,8 @@ struct ScenePath {
   float strength = 1;  // of its end
 };
 
+constexpr float mark_inside = 0.8f;    // of a mark's radius: outside of it is a ring
+constexpr float mark_strength = 0.4f;  // of the disc that the ring encloses
 // A mark on the floor.
 struct SceneMark {
   QVector3D at;
@@ -76,5 +78,11 @@ struct ScenePicture {
 
 void pose_meshes(ScenePicture& picture);
 OrbitCamera camera_of(const ScenePicture& picture, const SceneCell& cell);
+// The floor is a disc around what is looked at: its radius in metres, and how strong it is at a share of
+// that.
+float floor_reach(const OrbitCamera& camera, const Scene& scene);
+constexpr float floor_fades_from = 0.25f, floor_fades_to = 0.95f;
+float floor_strength(float share);
+constexpr float quarter_lines = 0.35f;  // how strong the lines between the metres are
 
 }  // namespace kinegraph

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/look/hairline.h"
+
 namespace kinegraph {
 namespace {
 constexpr int rest_ms = 180;      // without a new picture until it is drawn smooth
@@ -75,30 +77,35 @@ double Stage::shape() const {
 
 // Upright at the edge, where it keeps clear of the feet: longer above, shorter below.
 void Stage::paint_legend(QPainter& painter) const {
-  constexpr double edge = 8, bar_width = 6, space = 7;
+  constexpr double edge = 9, bar_width = 8, space = 8;
   const QFontMetricsF metrics(painter.font());
-  const QString lines[] = {tr("+10 %"), tr("length"), tr("−10 %")};
-  double words = 0;
+  const QString title = tr("Link length");
+  const QString lines[] = {tr("+10 %"), tr("as at rest"), tr("−10 %")};
+  double words = metrics.horizontalAdvance(title) - bar_width - space;
   for (const QString& line : lines) words = std::max(words, metrics.horizontalAdvance(line));
-  const double line_height = metrics.height(), wide = edge + bar_width + space + words + edge;
-  const QRectF plate(8, height() - 3 * line_height - edge - 8, wide, 3 * line_height + edge);
+  const double line_height = metrics.height() + 1, wide = edge + bar_width + space + words + edge;
+  const QRectF plate(8, height() - 4 * line_height - edge - 14, wide, 4 * line_height + edge + 6);
   QColor back = theme_->panel;
-  back.setAlpha(205);
+  back.setAlpha(215);
   painter.setPen(Qt::NoPen);
   painter.setBrush(back);
   painter.drawRoundedRect(plate, 4, 4);
-  const QRectF bar(plate.left() + edge, plate.top() + edge, bar_width, plate.height() - 2 * edge);
+  painter.setPen(theme_->faint_text);
+  painter.drawText(QRectF(plate.left() + edge, plate.top() + edge / 2, plate.width(), line_height),
+                   Qt::AlignLeft | Qt::AlignVCenter, title);
+  const double top = plate.top() + edge / 2 + line_height + 3;
+  const QRectF bar(plate.left() + edge, top + 2, bar_width, 3 * line_height - 4);
   QLinearGradient colors(bar.bottomLeft(), bar.topLeft());
   colors.setColorAt(0, theme_->stretch_short);
   colors.setColorAt(0.5, theme_->bone);
   colors.setColorAt(1, theme_->stretch_long);
+  painter.setPen(Qt::NoPen);
   painter.setBrush(colors);
   painter.drawRoundedRect(bar, 3, 3);
   painter.setPen(theme_->text);
   for (int i = 0; i < 3; ++i)
-    painter.drawText(
-        QRectF(bar.right() + space, plate.top() + edge / 2 + i * line_height, words + 2, line_height),
-        Qt::AlignLeft | Qt::AlignVCenter, lines[i]);
+    painter.drawText(QRectF(bar.right() + space, top + i * line_height, words + 2, line_height),
+                     Qt::AlignLeft | Qt::AlignVCenter, lines[i]);
 }
 
 void Stage::camera_changed() {
@@ -141,24 +148,20 @@ void Stage::paintEvent(QPaintEvent*) {
     painter.drawText(plate.adjusted(19, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, words);
   }
   if (cells_.size() > 1 && !has_wipe_) {
-    painter.setPen(QPen(theme_->line, 1));
     for (const SceneCell& cell : cells_) {
       const QRectF part(cell.clip.x() * width(), cell.clip.y() * height(), cell.clip.width() * width(),
                         cell.clip.height() * height());
-      if (cell.clip.right() < 0.999) painter.drawLine(part.topRight(), part.bottomRight());
-      if (cell.clip.bottom() < 0.999) painter.drawLine(part.bottomLeft(), part.bottomRight());
+      if (cell.clip.right() < 0.999)
+        draw_hairline(painter, part.topRight(), part.bottomRight(), theme_->line);
+      if (cell.clip.bottom() < 0.999)
+        draw_hairline(painter, part.bottomLeft(), part.bottomRight(), theme_->line);
     }
   }
   if (has_legend_) paint_legend(painter);
-  if (parentWidget() && parentWidget()->hasFocus()) {
-    painter.setPen(QPen(theme_->accent, 1));
-    painter.setBrush(Qt::NoBrush);
-    painter.drawRect(QRectF(0.5, 0.5, width() - 1, height() - 1));
-  }
+  if (parentWidget() && parentWidget()->hasFocus()) draw_hair_frame(painter, QRectF(rect()), theme_->accent);
   if (has_wipe_) {
     const double x = wipe_ * width();
-    painter.setPen(QPen(theme_->accent, 2));
-    painter.drawLine(QPointF(x, 0), QPointF(x, height()));
+    draw_hairline(painter, QPointF(x, 0), QPointF(x, height()), theme_->accent, 2);
     painter.setPen(Qt::NoPen);
     painter.setBrush(theme_->accent);
     painter.drawRoundedRect(QRectF(x - 5, height() / 2.0 - 16, 10, 32), 5, 5);

@@ -22,6 +22,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double caption_row = 24;  // pixels from one caption to the next
+constexpr int patience_ms = 250;
 
 bool same_targets(const std::vector<Target>& a, const std::vector<Target>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -52,9 +53,13 @@ Viewer::Viewer(Session& session, Evaluation& evaluation, Playback& playback, QWi
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(tr("Viewer"));
   build();
+  patience_.setSingleShot(true);
+  patience_.setInterval(patience_ms);
+  connect(&patience_, &QTimer::timeout, this, &Viewer::update_scene);
   // Of another graph nothing stays on the stage, even where its nodes have the same names.
   connect(&session_, &Session::page_changed, this, [this] {
     shown_.clear();
+    patience_.stop();
     pins_of_page_[page_] = pins_;
     page_ = session_.path();
     pins_ = pins_of_page_[page_];
@@ -82,6 +87,10 @@ Viewer::Viewer(Session& session, Evaluation& evaluation, Playback& playback, QWi
 }
 
 Viewer::~Viewer() = default;
+
+std::shared_ptr<const Contacts> Viewer::Shown::contacts() const {
+  return std::dynamic_pointer_cast<const Contacts>(marked);
+}
 
 void Viewer::build() {
   auto* column = new QVBoxLayout(this);
@@ -356,6 +365,8 @@ void Viewer::find_wanted() {
     one.target = *target;
     const std::vector<Target> skins = outputs_of(document, registry, target->node, "Character");
     if (!skins.empty()) one.skin = skins.front();
+    const std::vector<Target> marks = outputs_of(document, registry, node, "Contacts");
+    if (!marks.empty()) one.marks = marks.front();
     for (const Shown& old : shown_)
       if (old.target.node == one.target.node && old.target.port == one.target.port) {
         one.value = old.value;
@@ -371,9 +382,14 @@ void Viewer::find_wanted() {
   for (const Shown& one : shown) {
     wanted.push_back(one.target);
     if (!one.skin.node.empty()) wanted.push_back(one.skin);
+    if (!one.marks.node.empty()) wanted.push_back(one.marks);
   }
+  // What goes while the next is on its way.
+  const bool goes = std::any_of(shown_.begin(), shown_.end(), [](const Shown& one) { return one.motion; });
   shown_ = std::move(shown);
   update_controls();
+  const bool comes = std::none_of(shown_.begin(), shown_.end(), [](const Shown& one) { return one.motion; });
+  if (goes && comes && may_wait()) patience_.start();
   take_values();
   if (!same_targets(wanted, wanted_)) {
     wanted_ = std::move(wanted);
@@ -386,6 +402,7 @@ void Viewer::take_values() {
   for (Shown& one : shown_) {
     one.value = evaluation_.value(one.target.node, one.target.port);
     if (!one.skin.node.empty()) one.character = evaluation_.value(one.skin.node, one.skin.port);
+    if (!one.marks.node.empty()) one.marked = evaluation_.value(one.marks.node, one.marks.port);
     // While a new value is made ready the old motion stays on the stage.
     if (auto motion = motions_.find(one.value)) one.motion = std::move(motion);
     any = any || one.motion;
@@ -408,7 +425,19 @@ QString Viewer::caption_of(const Shown& one) const {
   return one.place > 0 ? QString("%1  %2").arg(one.place).arg(name) : name;
 }
 
+bool Viewer::may_wait() const {
+  if (shown_.empty() || session_.is_read_only()) return false;
+  using State = NodeStatus::State;
+  const NodeStatus* status = evaluation_.status(shown_.front().target.node);
+  const State state = status ? status->state : State::idle;
+  return state == State::idle || state == State::waiting || state == State::running || state == State::done;
+}
+
 void Viewer::update_scene() {
+  const bool any =
+      std::any_of(shown_.begin(), shown_.end(), [](const Shown& one) { return one.motion != nullptr; });
+  if (any || !may_wait()) patience_.stop();
+  if (patience_.isActive()) return;
   std::vector<SceneCell> cells;
   std::vector<Stage::Caption> captions;
   SceneLooks looks;
@@ -431,6 +460,7 @@ void Viewer::update_scene() {
     for (std::size_t i = 0; i < ready.size(); ++i) {
       looks.second = i > 0;
       looks.opacity = i > 0 ? 0.5f : 1.0f;
+      looks.contacts_of = ready[i]->contacts();
       add_motion(cell.scene, *ready[i]->motion, seconds, looks, *theme_, ready[i]->character);
       captions.push_back(
           {QRectF(0, 0, 1, 1), caption_of(*ready[i]), i > 0 ? theme_->second : theme_->accent, false});
@@ -444,6 +474,7 @@ void Viewer::update_scene() {
       SceneCell cell;
       cell.scene.camera_shift = followed(*ready.front());
       cell.clip = i == 0 ? QRectF(0, 0, at, 1) : QRectF(at, 0, 1 - at, 1);
+      looks.contacts_of = ready[i]->contacts();
       add_motion(cell.scene, *ready[i]->motion, seconds, looks, *theme_, ready[i]->character);
       captions.push_back({cell.clip, caption_of(*ready[i]), color_of(i), i == 1});
       cells.push_back(std::move(cell));
@@ -462,6 +493,7 @@ void Viewer::update_scene() {
       cell.where = cell.clip = QRectF(static_cast<double>(i % columns) / in_row,
                                       static_cast<double>(row) / rows, 1.0 / in_row, 1.0 / rows);
       cell.scene.camera_shift = followed(one);
+      looks.contacts_of = one.contacts();
       add_motion(cell.scene, *one.motion, seconds, looks, *theme_, one.character);
       captions.push_back({cell.clip, caption_of(one), color_of(static_cast<std::size_t>(i)), false});
       cells.push_back(std::move(cell));
@@ -477,6 +509,11 @@ void Viewer::update_scene() {
 }
 
 void Viewer::update_words() {
+  if (patience_.isActive()) {
+    if (may_wait()) return;
+    patience_.stop();
+    return update_scene();
+  }
   const bool any =
       std::any_of(shown_.begin(), shown_.end(), [](const Shown& one) { return one.motion != nullptr; });
   QString words;

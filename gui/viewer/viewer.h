@@ -1,6 +1,7 @@
 // The Viewer dock: motions in 3D. It shows the current node, or what is pinned to its places 1 to 9, side by
 // side, overlaid or with a wipe between two. A node that makes no motion shows what leads to it.
 #pragma once
+#include <QTimer>
 #include <QWidget>
 #include <array>
 #include <map>
@@ -45,6 +46,9 @@ class Viewer : public QWidget {
     std::shared_ptr<const ShownMotion> motion;
     Target skin;  // the node's character, node "" where it makes none
     ValuePtr character;
+    Target marks;  // the contacts that the looked at node makes of the motion, node "" where it makes none
+    ValuePtr marked;
+    std::shared_ptr<const Contacts> contacts() const;  // null: those that are found in the motion
   };
 
   Viewer(Session& session, Evaluation& evaluation, Playback& playback, QWidget* parent = nullptr);
@@ -86,6 +90,7 @@ class Viewer : public QWidget {
   void take_values();
   void update_scene();
   void update_words();
+  bool may_wait() const;  // the chosen node's value can come any moment
   void update_controls();
   void set_ghosts(int frames);
   void build_places(QToolBar& bar);
@@ -112,6 +117,7 @@ class Viewer : public QWidget {
   std::vector<Target> wanted_;
   std::vector<Shown> shown_;
   bool framed_ = false;  // the camera has found what is shown once
+  QTimer patience_;      // what was on the stage stays while the next is on its way, so that nothing flickers
 
   Stage* stage_ = nullptr;
   QLabel* words_ = nullptr;

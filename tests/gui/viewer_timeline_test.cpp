@@ -1,6 +1,8 @@
 // The timeline in a real window: keys and mouse move the clip's clock.
 #include <gtest/gtest.h>
 
+#include <QToolButton>
+
 #include "gui/timeline/timeline_tracks.h"
 #include "tests/gui/viewing_window.h"
 
@@ -59,6 +61,76 @@ TEST(ViewerTimeline, ScrubsWhereTheMouseIs) {
   const int x = static_cast<int>(tracks->x_of(100)) + 1;
   QTest::mouseClick(tracks, Qt::LeftButton, {}, QPoint(x, tracks->height() / 2));
   EXPECT_NEAR(window.playback.frame(), 100, 1);
+}
+
+// A person chooses a node that can't give a motion after one that plays.
+TEST(ViewerTimeline, TellsOfTheChosenNodeWhereItHasNothingToPlay) {
+  ViewingWindow window(R"({"format": "kinegraph", "schema": 1, "nodes": {
+    "walk": {"type": "Gait", "params": {"seconds": 2}},
+    "gone": {"type": "Load", "params": {"file": "nowhere.bvh"}},
+    "soft": {"type": "Filter", "inputs": {"motion": "gone.motion"}},
+    "alone": {"type": "Filter"}}})");
+  auto* tracks = window.timeline->findChild<TimelineTracks*>();
+  const auto buttons = [&] {
+    int usable = 0;
+    for (const QToolButton* button : window.timeline->findChildren<QToolButton*>())
+      usable += button->isEnabled() ? 1 : 0;
+    return usable;
+  };
+  const auto tells = [&](const char* words) {
+    return ViewingWindow::until([&] { return tracks->accessibleDescription().contains(words); }, 10000);
+  };
+  window.session.select({"walk"});
+  ASSERT_TRUE(window.shows_motions());
+  ASSERT_TRUE(ViewingWindow::until([&] { return buttons() > 0; }));
+  const QImage playing = tracks->grab().toImage();
+  QTest::keyClick(tracks, Qt::Key_Space);
+  EXPECT_TRUE(window.playback.is_playing());
+
+  window.session.select({"soft"});
+  EXPECT_TRUE(tells("soft waits for a node before it that failed"));
+  EXPECT_EQ(buttons(), 0);
+  EXPECT_FALSE(window.playback.is_playing());
+  QTest::keyClick(tracks, Qt::Key_Space);
+  EXPECT_FALSE(window.playback.is_playing());
+  QTest::mouseClick(tracks, Qt::LeftButton, {}, QPoint(tracks->width() / 2, tracks->height() / 2));
+  EXPECT_NE(tracks->grab().toImage(), playing);
+
+  window.session.select({"alone"});
+  EXPECT_TRUE(tells("alone isn't linked yet"));
+  window.session.select({"gone"});
+  EXPECT_TRUE(tells("gone failed"));
+
+  window.session.select({"walk"});
+  EXPECT_TRUE(ViewingWindow::until([&] { return buttons() > 0; }));
+  EXPECT_EQ(tracks->accessibleDescription(), "");
+  QTest::keyClick(tracks, Qt::Key_Space);
+  EXPECT_TRUE(window.playback.is_playing());
+}
+
+TEST(ViewerTimeline, ShowsTheContactsThatTheChosenNodeFinds) {
+  ViewingWindow window(R"({"format": "kinegraph", "schema": 1, "nodes": {
+    "walk": {"type": "Gait", "params": {"seconds": 2}},
+    "feet": {"type": "DetectContacts", "inputs": {"motion": "walk.motion"},
+      "params": {"edits": [{"foot": "left", "range": [0, 200], "planted": true},
+                           {"foot": "right", "range": [0, 200], "planted": true}]}}}})");
+  ASSERT_TRUE(window.problems.empty()) << window.problems.front().message;
+  auto* tracks = window.timeline->findChild<TimelineTracks*>();
+  const auto colored = [&] {
+    const QImage image = tracks->grab().toImage();
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) count += image.pixelColor(x, y).hslSaturation() > 120 ? 1 : 0;
+    return count;
+  };
+  window.session.select({"walk"});
+  ASSERT_TRUE(window.shows_motions());
+  QTest::qWait(100);
+  const int found = colored();
+  window.session.select({"feet"});
+  ASSERT_TRUE(ViewingWindow::until([&] { return window.viewer->shown().front().contacts() != nullptr; }));
+  QTest::qWait(100);
+  EXPECT_GT(colored(), found * 5 / 4);  // planted all the time
 }
 
 TEST(ViewerTimeline, ShowsAWarpAsLinesAndCurves) {
