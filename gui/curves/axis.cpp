@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/look/hairline.h"
+
 namespace kinegraph {
 
 double round_step(double length, int wanted) {
@@ -27,8 +29,7 @@ void paint_axis(QPainter& painter, const QRectF& area, const Theme& theme, doubl
   const double up = round_step(high - low, std::max(2, static_cast<int>(area.height() / 28)));
   for (double v = std::ceil(low / up) * up; v <= high; v += up) {
     const double y = area.bottom() - (v - low) / (high - low) * area.height();
-    painter.setPen(QPen(theme.line, 1));
-    painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
+    draw_hairline(painter, QPointF(area.left(), y), QPointF(area.right(), y), theme.line);
     painter.setPen(theme.faint_text);
     painter.drawText(QRectF(0, y - 9, area.left() - 6, 18), Qt::AlignRight | Qt::AlignVCenter,
                      plain_number(std::abs(v) < up / 1e6 ? 0.0 : v));
@@ -36,8 +37,7 @@ void paint_axis(QPainter& painter, const QRectF& area, const Theme& theme, doubl
   const double across = std::max(1.0, round_step(frames, static_cast<int>(area.width() / 80)));
   for (double frame = 0; frame <= frames; frame += across) {
     const double x = area.left() + frame / std::max(1.0, frames) * area.width();
-    painter.setPen(QPen(theme.line, 1));
-    painter.drawLine(QPointF(x, area.bottom()), QPointF(x, area.bottom() + 4));
+    draw_hairline(painter, QPointF(x, area.bottom()), QPointF(x, area.bottom() + 4), theme.line);
     painter.setPen(theme.faint_text);
     painter.drawText(QRectF(x - 40, area.bottom() + 5, 80, 18), Qt::AlignHCenter | Qt::AlignTop,
                      plain_number(frame));

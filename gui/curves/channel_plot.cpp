@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gui/curves/axis.h"
+#include "gui/look/hairline.h"
 
 namespace kinegraph {
 
@@ -90,18 +91,40 @@ void ChannelPlot::paintEvent(QPaintEvent*) {
       painter.drawPolyline(line);
     }
   const double now = x_of(playback_.time());
-  painter.setPen(QPen(theme_->accent, 1.2));
-  painter.drawLine(QPointF(now, area.top()), QPointF(now, area.bottom()));
+  draw_hairline(painter, QPointF(now, area.top()), QPointF(now, area.bottom()), theme_->accent, 1.4);
   painter.setClipping(false);
-  double x = area.left();
-  for (const PlotSeries& one : series_) {
-    painter.setPen(QPen(color(one), 2.5, one.source ? Qt::DotLine : Qt::SolidLine));
-    painter.drawLine(QPointF(x, 15), QPointF(x + 16, 15));
+  paint_legend(painter);
+}
+
+// The channels by colour, then whose they are by the kind of line; what doesn't fit is shortened.
+void ChannelPlot::paint_legend(QPainter& painter) const {
+  struct Entry {
+    QString words;
+    QColor color;
+    bool dashed;
+  };
+  std::vector<Entry> entries;
+  for (const PlotSeries& one : series_)
+    if (!one.source) entries.push_back({one.name, color(one), false});
+  const auto source =
+      std::find_if(series_.begin(), series_.end(), [](const auto& one) { return one.source; });
+  if (source != series_.end()) {
+    entries.push_back({series_.front().whose, theme_->text, false});
+    entries.push_back({source->whose, theme_->faint_text, true});
+  }
+  double x = plot().left();
+  constexpr double sample = 18, space = 6, between = 16;
+  for (const Entry& entry : entries) {
+    const double room = width() - 8 - x - sample - space;
+    if (room < 24) break;
+    painter.setPen(QPen(entry.color, entry.dashed ? 1.6 : 2.5, entry.dashed ? Qt::DashLine : Qt::SolidLine));
+    painter.drawLine(QPointF(x, 15), QPointF(x + sample, 15));
     painter.setPen(theme_->text);
-    const double wide = painter.fontMetrics().horizontalAdvance(one.name);
-    if (x + 20 + wide > width()) break;
-    painter.drawText(QRectF(x + 21, 4, wide + 4, 22), Qt::AlignVCenter, one.name);
-    x += 21 + wide + 16;
+    const QString words =
+        painter.fontMetrics().elidedText(entry.words, Qt::ElideRight, static_cast<int>(room));
+    const double wide = painter.fontMetrics().horizontalAdvance(words);
+    painter.drawText(QRectF(x + sample + space, 4, wide + 4, 22), Qt::AlignVCenter, words);
+    x += sample + space + wide + between;
   }
 }
 

@@ -11,7 +11,8 @@
 namespace kinegraph {
 
 struct PlotSeries {
-  QString name;
+  QString name;               // "x"
+  QString whose;              // the node or output it is of
   std::vector<float> values;  // one a frame
   double fps = 120;
   int hue = 0;          // 0, 1, 2: x, y, z
@@ -35,6 +36,7 @@ class ChannelPlot : public QWidget {
  private:
   QRectF plot() const;
   QColor color(const PlotSeries& series) const;
+  void paint_legend(QPainter& painter) const;
   double length() const;  // s
 
   Playback& playback_;

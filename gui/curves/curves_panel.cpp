@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/curves/axis.h"
 #include "gui/curves/bar_plot.h"
 #include "gui/curves/channel_plot.h"
 #include "gui/curves/warp_plot.h"
@@ -37,7 +38,8 @@ std::vector<PlotSeries> series_of(const ShownMotion& motion, int point, Channel 
   const std::size_t frames = static_cast<std::size_t>(motion.frames);
   const auto add = [&](const char* name, int hue) -> std::vector<float>& {
     PlotSeries& one = all.emplace_back();
-    one.name = source ? QString("%1 (%2)").arg(name, whose) : QString(name);
+    one.name = name;
+    one.whose = whose;
     one.fps = motion.fps;
     one.hue = hue;
     one.source = source;
@@ -333,7 +335,7 @@ void CurvesPanel::show_channels(const Offer& offer) {
         break;
       }
   };
-  add(*result, offer.name, false);
+  add(*result, QString::fromStdString(offer.result.node), false);
   if (!offer.source.node.empty())
     if (const auto source = viewer_.motions().find(evaluation_.value(offer.source.node, offer.source.port)))
       add(*source, QString::fromStdString(offer.source.node), true);
@@ -375,15 +377,14 @@ void CurvesPanel::show_bars(const Offer& offer) {
     for (std::size_t i = 0; i < 4; ++i)
       bars.push_back({root[i],
                       QString("%1 ± %2 %3")
-                          .arg(stats->root_mean[i], 0, 'f', 2)
-                          .arg(stats->root_spread[i], 0, 'f', 2)
-                          .arg(units[i]),
+                          .arg(plain_number(std::round(100 * stats->root_mean[i]) / 100),
+                               plain_number(std::round(100 * stats->root_spread[i]) / 100), units[i]),
                       stats->root_mean[i], QString("root%1").arg(i)});
   } else if (const auto* metrics = dynamic_cast<const Metrics*>(value.get())) {
     for (const Metric& metric : metrics->all) {
       const QString name = QString::fromStdString(metric.name), unit = raised(metric.unit);
       const QString shown =
-          metric.value ? QString("%1 %2").arg(*metric.value, 0, 'g', 4).arg(unit) : tr("not measured");
+          metric.value ? QString("%1 %2").arg(plain_number(*metric.value), unit) : tr("not measured");
       // Only numbers of one kind compare: those of joints by the name before the dot.
       bars.push_back({name, shown, metric.value, name.section('.', 0, 0)});
     }

@@ -29,13 +29,15 @@ class WarpPlot : public QWidget {
 
  private:
   void paint_path(QPainter& painter, const QRectF& area);
+  void paint_scale(QPainter& painter, const QRectF& bar);
   void paint_energy(QPainter& painter, const QRectF& area);
 
   Playback& playback_;
   const Theme* theme_;
   std::shared_ptr<const Warp> warp_;
   std::shared_ptr<const ShownMotion> source_, reference_;
-  QImage distances_;  // grey: far = light
+  QImage distances_;                   // grey: far = light
+  double nearest_ = 0, farthest_ = 0;  // m between joints on the whole, at its ends
   QThreadPool pool_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double ruler = 24, right_edge = 14, gap = 6;
 constexpr double least_gutter = 96, most_gutter = 200;  // where the rows' names stand
 constexpr double lane_pad = 3;                          // around the contact bars of a row
-constexpr double most_lane = 18, plain_row = 56, least_named_lane = 9;
+constexpr double most_lane = 24, plain_row = 56, least_named_lane = 9;
 constexpr double handle = 6;  // pixels around an end of the range that take hold of it
 
 double nice_step(double least) {

@@ -1,14 +1,10 @@
 // Pictures of the docks, filled and with nothing to show.
-#include <QComboBox>
 #include <QDockWidget>
-#include <QHelpEvent>
 #include <QLineEdit>
 #include <QMenu>
 #include <QToolButton>
-#include <QToolTip>
 
 #include "gui/components/components_grid.h"
-#include "gui/timeline/timeline_tracks.h"
 #include "tests/screenshots/panels.h"
 #include "tests/screenshots/shots.h"
 
@@ -19,15 +15,8 @@ void filled(const Theme& theme, const QDir& into, const QString& end) {
   {
     Shot shot(theme, into);
     shot.open("style_transfer");
-    shot.window.playback().set_time(0.9);
-    shot.select("warp");
-    shot.take_dock("timeline_warp" + end, "Timeline");
-    shot.take_dock("curves_warp" + end, "Curves");
     shot.select("feet");
-    shot.take_dock("curves_channels" + end, "Curves");
     shot.take_dock("parameters" + end, "Parameters");
-    shot.select("style");
-    shot.take_dock("curves_statistics" + end, "Curves");
     shot.select("warp");
     shot.take_popup("parameter_menu" + end, [&] {
       shot.window.findChild<QWidget*>("param_features")
@@ -71,8 +60,6 @@ void filled(const Theme& theme, const QDir& into, const QString& end) {
   {
     Shot shot(theme, into);
     shot.take_dock("viewer_empty" + end, "Viewer");
-    shot.take_dock("timeline_empty" + end, "Timeline");
-    shot.take_dock("curves_empty" + end, "Curves");
     shot.take_dock("parameters_empty" + end, "Parameters");
   }
 }
@@ -80,7 +67,6 @@ void filled(const Theme& theme, const QDir& into, const QString& end) {
 void nothing_to_show(const Theme& theme, const QDir& into, const QString& end) {
   Shot shot(theme, into);
   shot.text(R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}},
-    "figures": {"type": "Metrics", "inputs": {"motion": "walk.motion"}},
     "feet": {"type": "Footskate"}, "parts": {"type": "ICA"},
     "inside": {"type": "Graph", "params": {"file": "nowhere.kg.json"}})");
   shot.select("feet");
@@ -90,8 +76,6 @@ void nothing_to_show(const Theme& theme, const QDir& into, const QString& end) {
   shot.take_dock("components_not_linked" + end, "Components");
   shot.select("inside");
   shot.take_dock("parameters_no_graph" + end, "Parameters");
-  shot.select("figures");
-  shot.take_dock("curves_figures" + end, "Curves");
 }
 
 void blocked(const Theme& theme, const QDir& into, const QString& end) {
@@ -101,8 +85,6 @@ void blocked(const Theme& theme, const QDir& into, const QString& end) {
     "parts": {"type": "ICA", "inputs": {"motions": ["soft.motion"]}})");
   shot.select("soft");
   shot.take_dock("viewer_blocked" + end, "Viewer");
-  shot.take_dock("timeline_blocked" + end, "Timeline");
-  shot.take_dock("curves_blocked" + end, "Curves");
   shot.select("parts");
   shot.take_dock("components_blocked" + end, "Components");
 }
@@ -119,29 +101,8 @@ void seldom_filled(const Theme& theme, const QDir& into, const QString& end) {
     Shot shot(theme, into);
     shot.open("style_transfer");
     shot.select("feet");
-    shot.window.playback().set_range(60, 250);
     shot.window.playback().set_time(0.9);
-    shot.take_dock("timeline_range" + end, "Timeline");
-    for (const auto& [channel, name] :
-         {std::pair("Speed", "curves_speed"), std::pair("Rotation", "curves_rotation")}) {
-      shot.dock("Curves");
-      for (QComboBox* box : shot.window.findChildren<QComboBox*>())
-        if (box->accessibleName() == "Channel") {
-          box->setCurrentText(channel);
-          emit box->activated(box->currentIndex());
-        }
-      shot.wait();
-      shot.take_dock(name + end, "Curves");
-    }
-    shot.dock("Timeline");
-    auto* tracks = shot.window.findChild<TimelineTracks*>();
-    const QPoint at(static_cast<int>(tracks->x_of(160)), 60);
-    QHelpEvent help(QEvent::ToolTip, at, tracks->mapToGlobal(at));
-    QApplication::sendEvent(tracks, &help);
-    shot.wait(200);
-    for (QWidget* top : QApplication::topLevelWidgets())
-      if (top->inherits("QTipLabel") && top->isVisible()) shot.take_widget("tool_tip" + end, top);
-    QToolTip::hideText();
+    shot.dock("Curves");
     auto* curves = shot.window.findChild<QDockWidget*>("dock_curves");
     curves->setFloating(true);
     curves->resize(620, 360);

@@ -1,7 +1,7 @@
 // Writes the pictures of docs/editor: every port type, node state, dock, dialog, error and empty state.
 //   editor_screenshots FOLDER dark|light|qpainter [PART…]
 //   editor_screenshots FOLDER scaled END
-// PART: graph, viewer, docks, menus, messages, files; all of them where none is given.
+// PART: graph, viewer, stage, docks, menus, messages, files; all of them where none is given.
 #include <QStandardPaths>
 #include <cstdio>
 
@@ -46,9 +46,10 @@ int main(int argc, char** argv) {
   const QStringList wanted = QApplication::arguments().mid(3);
   using Take = void (*)(const Theme&, const QDir&, const QString&);
   const std::pair<const char*, Take> parts[] = {
-      {"graph", shots::graph_pictures},      {"viewer", shots::viewer_pictures},
-      {"docks", shots::dock_pictures},       {"menus", shots::menu_pictures},
-      {"messages", shots::message_pictures}, {"files", shots::file_pictures}};
+      {"graph", shots::graph_pictures}, {"viewer", shots::viewer_pictures},
+      {"stage", shots::stage_pictures}, {"docks", shots::dock_pictures},
+      {"menus", shots::menu_pictures},  {"messages", shots::message_pictures},
+      {"files", shots::file_pictures}};
   for (const auto& [part, take] : parts)
     if (wanted.isEmpty() || wanted.contains(part)) take(theme, into, end);
   return 0;

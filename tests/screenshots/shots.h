@@ -154,6 +154,7 @@ struct Shot {
 // Into the folder, with names that end in `end`.
 void graph_pictures(const Theme& theme, const QDir& into, const QString& end);
 void viewer_pictures(const Theme& theme, const QDir& into, const QString& end);
+void stage_pictures(const Theme& theme, const QDir& into, const QString& end);
 void dock_pictures(const Theme& theme, const QDir& into, const QString& end);
 void menu_pictures(const Theme& theme, const QDir& into, const QString& end);
 void message_pictures(const Theme& theme, const QDir& into, const QString& end);

@@ -1,7 +1,64 @@
 // The viewer's pictures: everything that it can show of a motion, with OpenGL or with QPainter.
+#include "gui/viewer/stage.h"
 #include "tests/screenshots/shots.h"
 
 namespace kinegraph::shots {
+namespace {
+
+// The hand stays on the line.
+void drag_wipe(Shot& shot, double from, double to) {
+  auto* stage = shot.viewer().findChild<Stage*>();
+  const auto at = [&](double share) {
+    return QPoint(static_cast<int>(share * stage->width()), stage->height() / 2);
+  };
+  QTest::mousePress(stage, Qt::LeftButton, {}, at(from));
+  QMouseEvent move(QEvent::MouseMove, at(to), stage->mapToGlobal(at(to)), Qt::NoButton, Qt::LeftButton, {});
+  QApplication::sendEvent(stage, &move);
+  shot.wait();
+}
+
+void nine(const Theme& theme, const QDir& into, const QString& end) {
+  Shot shot(theme, into);
+  const char* const gaits[] = {"walk", "run", "sneak", "strut", "hobble", "jog", "stroll", "creep", "limp"};
+  QByteArray nodes;
+  for (int i = 0; i < 9; ++i) {
+    const QByteArray name = gaits[i];
+    nodes += (i ? ", \"" : "\"") + name + "\": {\"type\": \"Gait\", \"params\": {\"gait\": \"" +
+             gaits[i % 5] + "\", \"seconds\": 4, \"seed\": " + QByteArray::number(i) + "}}";
+  }
+  shot.text(nodes);
+  for (int i = 0; i < 9; ++i) shot.viewer().pin(i + 1, gaits[i]);
+  shot.window.playback().set_time(0.6);
+  shot.wait();
+  for (const auto& [arrangement, name] : {std::pair(Viewer::Arrangement::side_by_side, "viewer_nine"),
+                                          std::pair(Viewer::Arrangement::overlaid, "viewer_nine_overlaid")}) {
+    shot.viewer().set_arrangement(arrangement);
+    shot.viewer().frame_all();
+    shot.wait();
+    shot.take_dock(name + end, "Viewer");
+  }
+}
+
+// The camera goes along with the root: the same picture, three seconds on.
+void followed(const Theme& theme, const QDir& into, const QString& end) {
+  Shot shot(theme, into);
+  shot.text(R"("run": {"type": "Gait", "params": {"gait": "run", "seconds": 4}})");
+  Viewer::Looks looks;
+  looks.trails = true;
+  shot.viewer().set_looks(looks);
+  shot.window.playback().set_time(3);
+  shot.viewer().frame_all();
+  shot.wait();
+  shot.take_dock("viewer_followed" + end, "Viewer");
+  looks.trails = false;
+  looks.follow = false;
+  shot.viewer().set_looks(looks);
+  shot.viewer().frame_all();
+  shot.wait();
+  shot.take_dock("viewer_not_followed" + end, "Viewer");
+}
+
+}  // namespace
 
 void viewer_pictures(const Theme& theme, const QDir& into, const QString& end) {
   {
@@ -32,7 +89,11 @@ void viewer_pictures(const Theme& theme, const QDir& into, const QString& end) {
     take("viewer_overlaid");
     shot.viewer().set_arrangement(Viewer::Arrangement::wipe);
     take("viewer_wipe");
+    drag_wipe(shot, 0.5, 0.3);
+    shot.take_dock("viewer_wipe_dragged" + end, "Viewer");
   }
+  nine(theme, into, end);
+  followed(theme, into, end);
   {
     Shot shot(theme, into);
     shot.text(R"("sparks": {"type": "Burst"})");
@@ -62,6 +123,12 @@ void viewer_pictures(const Theme& theme, const QDir& into, const QString& end) {
     shot.viewer().frame_all();
     shot.wait();
     shot.take_dock("viewer_character" + end, "Viewer");
+    Viewer::Looks looks;
+    looks.trails = true;
+    looks.contacts = true;
+    shot.viewer().set_looks(looks);
+    shot.wait();
+    shot.take_dock("viewer_character_trails" + end, "Viewer");
   }
 }
 
