@@ -295,7 +295,26 @@ void GraphCanvas::dragEnterEvent(QDragEnterEvent* event) {
   if (event->mimeData()->hasUrls()) event->acceptProposedAction();
 }
 
+// Says what letting go would do.
+void GraphCanvas::dragMoveEvent(QDragMoveEvent* event) {
+  const QList<QUrl> urls = event->mimeData()->urls();
+  if (urls.isEmpty()) return;
+  event->acceptProposedAction();
+  const QFileInfo first(urls.first().toLocalFile());
+  const bool folder = first.isDir();
+  set_hint(folder                                  ? tr("A folder is no clip: drop files.")
+           : first.fileName().endsWith(".kg.json") ? tr("Opens %1").arg(first.fileName())
+           : urls.size() > 1                       ? tr("Adds a Load for each of %1 files").arg(urls.size())
+                                                   : tr("Adds a Load of %1").arg(first.fileName()),
+           event->position(), folder);
+}
+
+void GraphCanvas::dragLeaveEvent(QDragLeaveEvent*) {
+  set_hint({}, {}, false);
+}
+
 void GraphCanvas::dropEvent(QDropEvent* event) {
+  set_hint({}, {}, false);
   QPointF at = to_graph(event->position());
   for (const QUrl& url : event->mimeData()->urls()) {
     const QString path = url.toLocalFile();

@@ -47,6 +47,7 @@ void ComponentsGrid::set_picture(std::shared_ptr<const ComponentPicture> picture
     image_ = QImage();
     emit chosen_changed();
   }
+  fit_tiles();
   updateGeometry();
   ask();
   update();
@@ -109,7 +110,14 @@ QRect ComponentsGrid::figure_part(const QRect& tile) const {
 }
 
 void ComponentsGrid::set_room(int height) {
-  const int wanted = std::clamp(height - 2 * gap, least_height, most_height);
+  room_ = height;
+  fit_tiles();
+}
+
+// All rows without scrolling where that leaves figures large enough.
+void ComponentsGrid::fit_tiles() {
+  const int rows = std::max(1, (count() + columns(width()) - 1) / columns(width()));
+  const int wanted = std::clamp((room_ - gap) / rows - gap, least_height, most_height);
   if (wanted == tile_height_) return;
   tile_height_ = wanted;
   updateGeometry();
@@ -247,7 +255,7 @@ void ComponentsGrid::paintEvent(QPaintEvent* event) {
     paint_signal(painter, figure,
                  QRectF(whole.left() + 9, words.bottom() + 1, whole.width() - 18, signal_height - 6));
     if (hasFocus() && i == current_) {
-      painter.setPen(QPen(theme_->accent, 1, Qt::DotLine));
+      painter.setPen(QPen(theme_->accent, 1));
       painter.setBrush(Qt::NoBrush);
       painter.drawRoundedRect(QRectF(whole).adjusted(4, 4, -4, -4), 4, 4);
     }
@@ -305,6 +313,7 @@ bool ComponentsGrid::event(QEvent* event) {
 }
 
 void ComponentsGrid::resizeEvent(QResizeEvent*) {
+  fit_tiles();
   ask();
 }
 

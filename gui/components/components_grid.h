@@ -49,6 +49,7 @@ class ComponentsGrid : public QWidget {
   bool event(QEvent* event) override;
 
  private:
+  void fit_tiles();
   int count() const { return picture_ ? static_cast<int>(picture_->figures.size()) : 0; }
   int columns(int width) const;
   int tile_width() const;
@@ -66,7 +67,7 @@ class ComponentsGrid : public QWidget {
   QTimer playing_;
   QElapsedTimer clock_;
   std::set<int> chosen_;
-  int current_ = 0, tile_height_ = 212;
+  int current_ = 0, tile_height_ = 212, room_ = 228;
   bool drawing_ = false;
 };
 

@@ -422,7 +422,8 @@ void ComponentsPanel::tell_edits() {
   const bool any = !grid_->chosen().empty() && !session_.is_read_only();
   QString which;
   for (int component : chosen()) which += (which.isEmpty() ? "u" : ", u") + QString::number(component);
-  const QString where = edit_node_.empty() ? tr("a new ComponentEdit") : QString::fromStdString(edit_node_);
+  const QString where =
+      edit_node_.empty() ? tr("a new ComponentEdit") : tr("“%1”").arg(QString::fromStdString(edit_node_));
   QString words =
       any ? tr("%1: edits go to %2").arg(which, where) : tr("Click a figure; Ctrl+click takes several");
   QStringList done;

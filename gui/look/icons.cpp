@@ -154,7 +154,13 @@ void draw(QPainter& p, Sign sign, const Theme& theme) {
                                                    : theme.accent;
       p.setPen(Qt::NoPen);
       p.setBrush(color);
-      p.drawEllipse(QPointF(8, 8), 7, 7);
+      if (sign == Sign::warning) {
+        // Told from an error by its shape as well.
+        p.setPen(QPen(color, 2, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+        p.drawPolygon(QPolygonF({{8, 2}, {14.6, 13.6}, {1.4, 13.6}}));
+      } else {
+        p.drawEllipse(QPointF(8, 8), 7, 7);
+      }
       p.setPen(QPen(theme.window, 1.7, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
       p.setBrush(Qt::NoBrush);
       if (sign == Sign::question) {
@@ -169,8 +175,9 @@ void draw(QPainter& p, Sign sign, const Theme& theme) {
         p.drawPoint(QPointF(8, 4.6));
         p.drawLine(QPointF(8, 7.6), QPointF(8, 11.6));
       } else {
-        p.drawLine(QPointF(8, 4.2), QPointF(8, 8.6));
-        p.drawPoint(QPointF(8, 11.6));
+        const double lower = sign == Sign::warning ? 1.2 : 0;
+        p.drawLine(QPointF(8, 4.2 + lower), QPointF(8, 8.6 + lower));
+        p.drawPoint(QPointF(8, 11.6 + lower));
       }
       break;
     }

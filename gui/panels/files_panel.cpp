@@ -167,10 +167,17 @@ void FilesPanel::fill() {
   if (!folder_.isEmpty()) add_clips(tr("Clips"), folder_);
   for (const QString& assets : user_settings()->value("assets").toStringList())
     if (QDir(assets).exists()) add_clips(QDir(assets).dirName(), assets);
+  bool any = false;
   for (QTreeWidgetItem* item : sections) {
     item->setExpanded(true);
+    any = any || item->childCount();
     if (item->childCount()) continue;
-    auto* none = new QTreeWidgetItem(item, {wanted.isEmpty() ? tr("None yet") : tr("None of that name")});
+    item->setHidden(!wanted.isEmpty());
+    auto* none = new QTreeWidgetItem(item, {tr("None yet")});
+    none->setFlags(Qt::NoItemFlags);
+  }
+  if (!any && !wanted.isEmpty()) {
+    auto* none = new QTreeWidgetItem(tree_, {tr("No graph or clip is called “%1”").arg(wanted)});
     none->setFlags(Qt::NoItemFlags);
   }
 }

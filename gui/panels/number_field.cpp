@@ -25,7 +25,7 @@ class CalmSlider : public QSlider {
   void wheelEvent(QWheelEvent* event) override { event->ignore(); }
 };
 
-constexpr int line_width = 76;  // beside a slider
+constexpr int line_width = 76, most_digits = 8;  // beside a slider
 
 class NumberField : public ParamField {
  public:
@@ -72,8 +72,10 @@ class NumberField : public ParamField {
 
   void show_value(const Json& value) override {
     showing_ = true;
-    shown_ = typed_text(type_, value);
+    shown_ = fitting(value);
     line_->setText(shown_);
+    line_->setToolTip(value.is_number() && shown_ != typed_text(type_, value) ? typed_text(type_, value)
+                                                                              : toolTip());
     line_->setCursorPosition(0);
     if (slider_) {
       // The name of a variable has the slider's room as well.
@@ -119,6 +121,12 @@ class NumberField : public ParamField {
     if (whole() || !slider_) return 1;
     return std::pow(10.0, std::floor(std::log10(span() / 50)));
   }
+  // Rounded where all of its digits have no room; it stays what it is while nothing else is typed.
+  QString fitting(const Json& value) const {
+    const QString all = typed_text(type_, value);
+    return slider_ && value.is_number() && all.size() > most_digits ? QString::number(value.number(), 'g', 5)
+                                                                    : all;
+  }
   // To a step that reads well: 0.35, not 0.3487.
   double rounded(double value) const {
     if (whole()) return std::round(value);
@@ -132,7 +140,7 @@ class NumberField : public ParamField {
   }
   void send(double value) {
     const Json json = value;
-    shown_ = typed_text(type_, json);
+    shown_ = fitting(json);
     line_->setText(shown_);
     emit edited(json);
   }

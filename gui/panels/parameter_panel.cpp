@@ -89,6 +89,7 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
   help_ = faint_label({}, some_);
   help_->setObjectName("param_help");
   help_->setIndent(0);
+  help_->setTextFormat(Qt::RichText);
   help_->setAlignment(Qt::AlignTop);
   help_->setFixedHeight(help_height());
   column->addWidget(help_);
@@ -281,7 +282,9 @@ void ParameterPanel::build(const NodeType& known) {
     setTabOrder(before, child);
     before = child;
   }
-  tell_help(tr("Point at a parameter to read what it does."));
+  tell_help(session_.is_read_only()
+                ? tr("This graph may be read here, not changed: a newer Kinegraph wrote it.")
+                : tr("Point at a parameter to read what it does."));
 }
 
 void ParameterPanel::refresh(bool another) {
@@ -297,7 +300,10 @@ void ParameterPanel::refresh(bool another) {
     note_->setCursorPosition(0);
   }
   enabled_->setChecked(node.enabled);
-  enabled_->setEnabled(!node.missing);
+  const bool writable = !session_.is_read_only();
+  enabled_->setEnabled(!node.missing && writable);
+  name_->setReadOnly(!writable);
+  note_->setReadOnly(!writable);
   const NodeType* known = type();
   type_label_->setText(QString("<b>%1</b> <span style='color:%2'>%3</span>")
                            .arg(QString::fromStdString(node.type).toHtmlEscaped(), theme_->faint_text.name(),
@@ -316,6 +322,8 @@ void ParameterPanel::refresh(bool another) {
       row.field->show_value(value);
     }
     row.value = value;
+    row.field->setEnabled(writable);
+    row.menu->setEnabled(writable);
     QFont font = row.label->font();
     font.setBold(own && !is_default(*param, value));
     row.label->setFont(font);
@@ -360,12 +368,16 @@ void ParameterPanel::refresh_state() {
   mark_problems();
 }
 
-// A value that the graph was saved with and that doesn't fit is marked where it stands as well.
+// A value that stands in the graph and doesn't fit, or made the node fail, is marked where it stands as well.
 void ParameterPanel::mark_problems() {
   std::set<std::string> wrong;
   for (const Diagnostic& problem : session_.problems())
     if (problem.node == node_ && problem.severity == Severity::error)
       wrong.insert(problem.param.substr(0, problem.param.find_first_of(".[")));
+  if (const NodeStatus* status = evaluation_.status(node_))
+    for (const Diagnostic& problem : status->diagnostics)
+      if (problem.severity == Severity::error && problem.port.empty())
+        wrong.insert(problem.param.substr(0, problem.param.find_first_of(".[")));
   for (auto& [name, row] : rows_) row.field->mark_wrong(row.mistake->says_something() || wrong.count(name));
 }
 

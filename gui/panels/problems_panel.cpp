@@ -4,34 +4,23 @@
 #include <QFileInfo>
 #include <QHeaderView>
 #include <QLabel>
-#include <QPainter>
 #include <QStackedLayout>
 #include <QStyledItemDelegate>
 #include <algorithm>
 #include <set>
 
 #include "gui/document/problem_text.h"
+#include "gui/look/icons.h"
 
 namespace kinegraph {
 namespace {
-
-QIcon mark(const QColor& color) {
-  QPixmap pixmap(24, 24);
-  pixmap.fill(Qt::transparent);
-  QPainter p(&pixmap);
-  p.setRenderHint(QPainter::Antialiasing);
-  p.setPen(Qt::NoPen);
-  p.setBrush(color);
-  p.drawEllipse(5, 5, 14, 14);
-  return QIcon(pixmap);
-}
 
 // Rows as high as their longest wrapped text.
 class WrappedRows : public QStyledItemDelegate {
  public:
   explicit WrappedRows(QTreeWidget* list) : QStyledItemDelegate(list), list_(list) {}
   QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
-    const int beside = index.column() == 0 ? 46 : 18, width = list_->columnWidth(index.column()) - beside;
+    const int beside = index.column() == 0 ? 50 : 26, width = list_->columnWidth(index.column()) - beside;
     const QRect words = option.fontMetrics.boundingRect(QRect(0, 0, std::max(40, width), 2000),
                                                         Qt::TextWordWrap, index.data().toString());
     return QSize(words.width() + beside, words.height() + 10);
@@ -147,9 +136,10 @@ void ProblemsPanel::fill() {
     errors += row.severity == Severity::error;
     warnings += row.severity == Severity::warning;
     auto* item = new QTreeWidgetItem({row.where, row.what, row.advice});
-    item->setIcon(0, mark(row.severity == Severity::error     ? theme_->error
-                          : row.severity == Severity::warning ? theme_->warning
-                                                              : theme_->accent));
+    item->setIcon(0, icon(row.severity == Severity::error     ? Sign::error
+                          : row.severity == Severity::warning ? Sign::warning
+                                                              : Sign::info,
+                          *theme_));
     for (int column = 0; column < 3; ++column) item->setToolTip(column, item->text(column));
     if (!row.file.isEmpty()) item->setToolTip(0, row.file);
     item->setData(0, Qt::UserRole, row.node);

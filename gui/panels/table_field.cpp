@@ -53,6 +53,18 @@ class ChoiceDelegate : public QStyledItemDelegate {
       QStyledItemDelegate::setModelData(editor, model, index);
   }
 
+ protected:
+  // What holds where nothing is typed.
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+    QStyledItemDelegate::initStyleOption(option, index);
+    if (!option->text.isEmpty()) return;
+    const ParamType& type = columns_[std::size_t(index.column())];
+    if (!type.fallback) return;
+    option->text = type.fallback->is_null() ? QStringLiteral("–") : typed_text(type, *type.fallback);
+    option->features |= QStyleOptionViewItem::HasDisplay;
+    option->palette.setColor(QPalette::Text, option->palette.color(QPalette::PlaceholderText));
+  }
+
  private:
   std::vector<ParamType> columns_;
 };

@@ -2,9 +2,7 @@
 #include <QDockWidget>
 #include <QLineEdit>
 #include <QMenu>
-#include <QToolButton>
 
-#include "gui/components/components_grid.h"
 #include "tests/screenshots/panels.h"
 #include "tests/screenshots/shots.h"
 
@@ -17,18 +15,6 @@ void filled(const Theme& theme, const QDir& into, const QString& end) {
     shot.open("style_transfer");
     shot.select("feet");
     shot.take_dock("parameters" + end, "Parameters");
-    shot.select("warp");
-    shot.take_popup("parameter_menu" + end, [&] {
-      shot.window.findChild<QWidget*>("param_features")
-          ->parentWidget()
-          ->findChild<QToolButton*>("row_menu")
-          ->click();
-    });
-    shot.take_popup("joint_tree" + end, [&] {
-      shot.window.findChild<QWidget*>("param_features")->findChild<QToolButton*>()->click();
-    });
-    shot.dock("Files");
-    shot.take_dock("files" + end, "Files");
     shot.select("check");
     shot.take_dock("parameters_rules" + end, "Parameters");
   }
@@ -39,23 +25,12 @@ void filled(const Theme& theme, const QDir& into, const QString& end) {
     shot.dock("Components");
     shot.wait(1500);
     shot.take("components" + end);
-    shot.take_dock("parameters_edits" + end, "Parameters");
-    shot.dock("Components");
-    shot.window.findChild<ComponentsGrid*>()->choose(1, false);
-    shot.wait();
-    shot.take_dock("components_chosen" + end, "Components");
   }
   {
     Shot shot(theme, into);
     shot.text(R"("sparks": {"type": "Burst"})");
     shot.take_dock("components_empty" + end, "Components");
     shot.take_dock("problems_empty" + end, "Problems");
-  }
-  {
-    Shot shot(theme, into);
-    shot.open("cartoon_walk");
-    shot.select("rubber");
-    shot.take_dock("parameters_groups" + end, "Parameters");
   }
   {
     Shot shot(theme, into);
@@ -120,12 +95,6 @@ void seldom_filled(const Theme& theme, const QDir& into, const QString& end) {
   }
   {
     Shot shot(theme, into);
-    shot.open("cartoon_dance");
-    shot.select("dance");
-    shot.take_dock("parameters_keys" + end, "Parameters");
-  }
-  {
-    Shot shot(theme, into);
     shot.open("face");
     shot.take("face" + end);
   }
@@ -158,10 +127,6 @@ void fields(const Theme& theme, const QDir& into, const QString& end) {
   line->setFocus();
   shot.wait(100);
   shot.take_dock("parameter_help" + end, "Parameters");
-  line->selectAll();
-  QTest::keyClicks(line, "fast");
-  QTest::keyClick(line, Qt::Key_Return);
-  shot.take_dock("parameter_mistake" + end, "Parameters");
   for (QMenu* menu : shot.window.findChildren<QMenu*>())
     for (const auto& [title, name] :
          {std::pair("Open recent", "menu_recent"), std::pair("Docks", "menu_docks")})
