@@ -327,9 +327,10 @@ void ComponentsPanel::tell_nothing() {
   } else {
     working = true;
     const bool runs = state == NodeStatus::State::running;
-    // Until the node itself runs nobody knows how long it takes.
-    progress_->setRange(0, runs ? 100 : 0);
-    if (runs) progress_->setValue(static_cast<int>(std::lround(100 * status->progress)));
+    // Until the node itself has come some way nobody knows how long it takes.
+    const int percent = runs ? static_cast<int>(std::lround(100 * status->progress)) : 0;
+    progress_->setRange(0, percent > 0 ? 100 : 0);
+    progress_->setValue(percent);
     empty_->setText((runs ? tr("%1 looks for the movements that its clips are made of…")
                      : state == NodeStatus::State::done ? tr("The figures of %1 are drawn…")
                                                         : tr("%1 waits for the nodes before it…"))

@@ -142,15 +142,20 @@ void FilesPanel::fill() {
     item->setToolTip(0, QDir::toNativeSeparators(path));
     item->setIcon(0, icon(sign, *theme_));
   };
+  const QString folder = examples_folder();
+  // An example's name is words wherever it is listed.
+  const auto name_of = [&](const QFileInfo& file) {
+    const QString name = file.fileName().remove(".kg.json");
+    const bool example = !folder.isEmpty() && file.absoluteDir() == QDir(folder);
+    return example ? QString(name).replace('_', ' ') : name;
+  };
   auto* recent = section(tr("Recent graphs"));
   for (const QString& path : user_settings()->value("recent").toStringList())
-    if (QFile::exists(path)) add(recent, path, QFileInfo(path).fileName().remove(".kg.json"), Sign::graph);
+    if (QFile::exists(path)) add(recent, path, name_of(QFileInfo(path)), Sign::graph);
   auto* examples = section(tr("Examples"));
-  const QString folder = examples_folder();
   if (!folder.isEmpty())
     for (const QFileInfo& file : QDir(folder).entryInfoList({"*.kg.json"}, QDir::Files, QDir::Name))
-      add(examples, file.absoluteFilePath(), file.fileName().remove(".kg.json").replace('_', ' '),
-          Sign::graph);
+      add(examples, file.absoluteFilePath(), name_of(file), Sign::graph);
   std::vector<QTreeWidgetItem*> sections{recent, examples};
   const auto add_clips = [&](const QString& title, const QString& in) {
     sections.push_back(section(title));

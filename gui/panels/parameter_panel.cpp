@@ -62,6 +62,7 @@ ParameterPanel::ParameterPanel(Session& session, Evaluation& evaluation, QWidget
   enabled_ = new QCheckBox(tr("Enabled"), some_);
   enabled_->setAccessibleName(tr("Enabled"));
   note_ = new ElidedLine(some_);
+  note_->setObjectName("node_note");
   note_->setAccessibleName(tr("Note"));
   note_->setPlaceholderText(tr("Add a note…"));
   type_label_ = new QLabel(some_);

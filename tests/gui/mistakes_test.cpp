@@ -8,6 +8,7 @@
 #include <QMimeData>
 #include <QMouseEvent>
 #include <QTabBar>
+#include <QTableWidget>
 #include <QUrl>
 
 #include "tests/gui/editor.h"
@@ -268,6 +269,104 @@ TEST(EditorMistakes, ANumberThatIsNoneOrTooLargeSaysWhatFits) {
   EXPECT_EQ(editor.speed(), 1.5);
   EXPECT_FALSE(why->isVisible());
   EXPECT_FALSE(line.property("mistake").toBool());
+}
+
+// A graph with a MotionWarp whose keys stand in a table.
+struct Keys : Files {
+  QTableWidget& open_keys() {
+    QFile file(folder.filePath("keys.kg.json"));
+    EXPECT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write(R"({"format": "kinegraph", "schema": 1, "nodes": {"walk": {"type": "Gait"},
+      "reach": {"type": "MotionWarp", "inputs": {"motion": "walk.motion"}, "params": {"keys": [
+        {"frame": 20, "joint": "LeftHand"}, {"frame": 45, "joint": "LeftHand", "position": [0.45, 1.7, -0.1]}]}}}})");
+    file.close();
+    EXPECT_TRUE(window.open(file.fileName()));
+    session().select({"reach"}, "reach");
+    window.show_dock("Parameters");
+    settle();
+    auto* table = window.findChild<QWidget*>("param_keys")->findChild<QTableWidget*>();
+    EXPECT_TRUE(table);
+    return *table;
+  }
+  // Double-click, all of it typed anew, Enter.
+  void type_cell(QTableWidget& table, int row, int column, const QString& text) {
+    const QPoint at = table.visualItemRect(table.item(row, column)).center();
+    QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, at);
+    QTest::mouseDClick(table.viewport(), Qt::LeftButton, {}, at);
+    settle();
+    key(Qt::Key_A, Qt::ControlModifier);
+    type(text);
+    key(Qt::Key_Return);
+  }
+};
+
+TEST(EditorMistakes, ACellThatDoesNotFitStaysAndSaysWhatIsWanted) {
+  Keys editor;
+  QTableWidget& table = editor.open_keys();
+  EXPECT_EQ(table.item(1, 3)->text(), "0.45, 1.7, -0.1");
+  const std::string before = editor.session().text();
+  editor.type_cell(table, 1, 3, "0.45, 1.7");
+  auto* why =
+      editor.window.findChild<QWidget*>("param_keys")->parentWidget()->findChild<QLabel*>("param_mistake");
+  ASSERT_TRUE(why);
+  EXPECT_TRUE(why->isVisible());
+  EXPECT_TRUE(why->text().contains("position")) << why->text().toStdString();
+  EXPECT_EQ(table.item(1, 3)->text(), "0.45, 1.7");
+  EXPECT_FALSE(table.item(1, 3)->icon().isNull());
+  EXPECT_TRUE(table.property("mistake").toBool());
+  EXPECT_EQ(editor.session().text(), before);
+  // Another row that fits is taken, and the cell stays marked.
+  editor.type_cell(table, 0, 0, "5*6");
+  EXPECT_EQ(editor.document().nodes.at("reach").params.at("keys").array()[0].find("frame")->number(), 30);
+  EXPECT_TRUE(why->isVisible());
+  EXPECT_EQ(table.item(1, 3)->text(), "0.45, 1.7");
+  editor.type_cell(table, 1, 3, "0.45 1.7 1/2");
+  EXPECT_FALSE(why->isVisible());
+  EXPECT_TRUE(table.item(1, 3)->icon().isNull());
+  EXPECT_EQ(
+      editor.document().nodes.at("reach").params.at("keys").array()[1].find("position")->array()[2].number(),
+      0.5);
+  // Two steps, and all is as it was.
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_Z, Qt::ControlModifier);
+  editor.key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(editor.session().text(), before);
+}
+
+TEST(EditorMistakes, AnUnfinishedRowIsNotTakenAlongToAnotherNode) {
+  Keys editor;
+  QTableWidget& table = editor.open_keys();
+  editor.session().perform(
+      [](const Document& d, const Registry& r) { return add_node(d, r, "other", "MotionWarp"); });
+  editor.type_cell(table, 0, 0, "soon");
+  auto* why =
+      editor.window.findChild<QWidget*>("param_keys")->parentWidget()->findChild<QLabel*>("param_mistake");
+  EXPECT_TRUE(why->isVisible());
+  editor.session().select({"other"}, "other");
+  Editor::settle();
+  auto* shown = editor.window.findChild<QWidget*>("param_keys")->findChild<QTableWidget*>();
+  EXPECT_EQ(shown->rowCount(), 0);
+  EXPECT_FALSE(editor.window.findChild<QWidget*>("param_keys")
+                   ->parentWidget()
+                   ->findChild<QLabel*>("param_mistake")
+                   ->isVisible());
+}
+
+TEST(EditorMistakes, ADraggedFileSaysWhatLettingGoDoes) {
+  Files editor;
+  ASSERT_TRUE(editor.open("a.kg.json"));
+  QMimeData dragged;
+  dragged.setUrls({QUrl::fromLocalFile(editor.folder.filePath("jump.bvh"))});
+  const QImage before = editor.canvas().grab().toImage();
+  QDragEnterEvent enter(QPoint(290, 200), Qt::CopyAction, &dragged, Qt::LeftButton, {});
+  QApplication::sendEvent(&editor.canvas(), &enter);
+  QDragMoveEvent move(QPoint(300, 200), Qt::CopyAction, &dragged, Qt::LeftButton, {});
+  QApplication::sendEvent(&editor.canvas(), &move);
+  EXPECT_TRUE(move.isAccepted());
+  EXPECT_NE(editor.canvas().grab().toImage(), before);
+  QDragLeaveEvent leave;
+  QApplication::sendEvent(&editor.canvas(), &leave);
+  EXPECT_EQ(editor.canvas().grab().toImage(), before);
 }
 
 }  // namespace

@@ -1,11 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <QDir>
+#include <QDockWidget>
 #include <QFile>
+#include <QHelpEvent>
+#include <QToolTip>
 #include <QTreeWidget>
 
 #include "gui/canvas/fuzzy.h"
 #include "gui/document/problem_text.h"
+#include "gui/look/elided_line.h"
 #include "gui/panels/arithmetic.h"
 #include "gui/panels/typed_words.h"
 #include "gui/panels/variants.h"
@@ -256,6 +260,42 @@ TEST(EditorWords, EveryDefaultOfEveryNodeIsReadBackAsItIs) {
       ASSERT_TRUE(again) << name << "." << param.name << ": " << why.toStdString();
       EXPECT_EQ(*again, value) << name << "." << param.name;
     }
+}
+
+TEST(EditorParameters, WhatIsTooLongEndsInAnEllipsisAndHasAToolTip) {
+  Editor editor;
+  editor.add("Filter");
+  auto* note = editor.window.findChild<QDockWidget*>("dock_parameters")->findChild<QLineEdit*>("node_note");
+  auto* cut = dynamic_cast<ElidedLine*>(note);
+  ASSERT_TRUE(cut);
+  QTest::mouseClick(note, Qt::LeftButton);
+  editor.type(QString("As the director wants it. ").repeated(6));
+  editor.key(Qt::Key_Return);
+  const QString all = note->text();
+  const QImage typed = note->grab().toImage();
+  editor.canvas().setFocus();
+  Editor::settle();
+  EXPECT_TRUE(cut->is_cut());
+  EXPECT_EQ(note->text(), all) << "what is cut is only how it looks";
+  EXPECT_NE(note->grab().toImage(), typed);
+  QHelpEvent help(QEvent::ToolTip, QPoint(20, 8), note->mapToGlobal(QPoint(20, 8)));
+  QApplication::sendEvent(note, &help);
+  EXPECT_TRUE(QToolTip::text().contains(all.trimmed())) << QToolTip::text().toStdString();
+  QToolTip::hideText();
+}
+
+TEST(EditorFiles, AFilterHidesWhatHasNothingAndSaysSoOnce) {
+  Editor editor;
+  editor.window.show_dock("Files");
+  auto* dock = editor.window.findChild<QDockWidget*>("dock_files");
+  auto* filter = dock->findChild<QLineEdit*>();
+  auto* tree = dock->findChild<QTreeWidget*>("file_tree");
+  QTest::mouseClick(filter, Qt::LeftButton);
+  editor.type("quadrille");
+  QStringList seen;
+  for (int i = 0; i < tree->topLevelItemCount(); ++i)
+    if (!tree->topLevelItem(i)->isHidden()) seen << tree->topLevelItem(i)->text(0);
+  EXPECT_EQ(seen, QStringList{"No graph or clip is called “quadrille”"});
 }
 
 }  // namespace

@@ -232,8 +232,8 @@ void components(const Theme& theme, const QDir& into, const QString& end) {
   }
   {
     Shot shot(theme, into);
-    shot.text(R"("long": {"type": "Gait", "params": {"seconds": 300}},
-      "other": {"type": "Gait", "params": {"seconds": 300, "speed": 2}},
+    shot.text(R"("long": {"type": "Gait", "params": {"seconds": 60}},
+      "other": {"type": "Gait", "params": {"seconds": 60, "speed": 2}},
       "parts": {"type": "ICA", "inputs": {"motions": ["long.motion", "other.motion"]}, "params": {"components": 30, "starts": 1000, "iterations": 100000, "tolerance": 1e-15}})");
     shot.session().select({"parts"}, "parts");
     shot.window.show_dock("Components");
