@@ -39,8 +39,11 @@ void paint_axis(QPainter& painter, const QRectF& area, const Theme& theme, doubl
     const double x = area.left() + frame / std::max(1.0, frames) * area.width();
     draw_hairline(painter, QPointF(x, area.bottom()), QPointF(x, area.bottom() + 4), theme.line);
     painter.setPen(theme.faint_text);
-    painter.drawText(QRectF(x - 40, area.bottom() + 5, 80, 18), Qt::AlignHCenter | Qt::AlignTop,
-                     plain_number(frame));
+    const QString number = QString::number(std::llround(frame));
+    const double wide = painter.fontMetrics().horizontalAdvance(number) + 2;
+    // The last one stays inside.
+    const double left = std::min(x - wide / 2, area.right() + 14 - wide);
+    painter.drawText(QRectF(left, area.bottom() + 5, wide, 18), Qt::AlignHCenter | Qt::AlignTop, number);
   }
   painter.setPen(theme.faint_text);
   painter.drawText(QRectF(4, area.top() - 24, area.left() - 10, 18), Qt::AlignRight | Qt::AlignVCenter, unit);

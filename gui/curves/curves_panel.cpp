@@ -294,6 +294,9 @@ void CurvesPanel::take_values() {
   joint_->setVisible(channels && (there || joint_->count() > 0));
   channel_->setVisible(channels && (there || joint_->count() > 0));
   what_->setVisible(one != nullptr);
+  if (!one && !session_.current().empty() && session_.document().nodes.count(session_.current()))
+    return tell(tr("Nothing of %1 can be plotted. Choose a node to see its channels, statistics or warp.")
+                    .arg(QString::fromStdString(session_.current())));
   if (!one) return tell(tr("Choose a node to see its channels, statistics or warp as curves."));
   if (!visible_) return;
   const ValuePtr value = evaluation_.value(one->result.node, one->result.port);

@@ -11,6 +11,7 @@
 
 #include "gui/timeline/timeline_tracks.h"
 #include "gui/timeline/transport_icon.h"
+#include "gui/viewer/motion_scene.h"
 #include "gui/viewing/looked_at.h"
 
 namespace kinegraph {
@@ -258,7 +259,6 @@ void Timeline::take_values() {
     row(source_, theme_->accent);
     row(reference_, theme_->second);
   }
-  const QColor colors[] = {theme_->accent, theme_->second, theme_->warning, theme_->missing, theme_->good};
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const Viewer::Shown& one = shown[i];
     if (one.motion && !main) main = &one;
@@ -266,7 +266,7 @@ void Timeline::take_values() {
     const bool there =
         std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.motion == one.motion; });
     if (!there)
-      rows.push_back({name, colors[i % std::size(colors)], one.motion,
+      rows.push_back({name, color_of_shown(*theme_, i), one.motion,
                       one.motion ? QString() : why_not(one.target.node), one.contacts()});
   }
   if (main) playback_.set_clip(main->motion->fps, main->motion->frames);

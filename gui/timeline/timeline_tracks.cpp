@@ -199,9 +199,10 @@ void TimelineTracks::paint_ruler(QPainter& painter) {
     draw_hairline(painter, QPointF(x, ruler - 6), QPointF(x, height()), theme_->line);
     const QString number = QString::number(static_cast<int>(frame));
     const double wide = painter.fontMetrics().horizontalAdvance(number);
-    if (QRectF(x - wide / 2 - 3, 0, wide + 6, ruler).intersects(playhead())) continue;
+    const double left = std::min(x - wide / 2, width() - wide - 3.0);  // the last one stays inside
+    if (QRectF(left - 3, 0, wide + 6, ruler).intersects(playhead())) continue;
     painter.setPen(theme_->faint_text);
-    painter.drawText(QRectF(x - 40, 2, 80, ruler - 8), Qt::AlignCenter, number);
+    painter.drawText(QRectF(left - 1, 2, wide + 2, ruler - 8), Qt::AlignCenter, number);
   }
 }
 

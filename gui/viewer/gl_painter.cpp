@@ -466,7 +466,8 @@ QImage GlPainter::paint(const ScenePicture& picture) {
   QOpenGLFramebufferObject& target = gl.target(picture.size, picture.smooth);
   target.bind();
   gl.glDisable(GL_SCISSOR_TEST);
-  gl.glClearColor(0, 0, 0, 1);
+  const QVector3D sky = rgb_of(picture.colors.sky);
+  gl.glClearColor(sky.x(), sky.y(), sky.z(), 1);
   gl.glClear(GL_COLOR_BUFFER_BIT);
   gl.glEnable(GL_SCISSOR_TEST);
   for (const SceneCell& cell : picture.cells) gl.draw_cell(picture, cell);

@@ -20,7 +20,7 @@ QRgb side_color(ShownMotion::Side side, const SceneLooks& looks, const Theme& th
   const QColor plain = side == ShownMotion::Side::left    ? theme.left
                        : side == ShownMotion::Side::right ? theme.right
                                                           : theme.bone;
-  return looks.second ? mixed(theme.second, plain, 0.25) : plain.rgb();
+  return looks.tint.isValid() ? mixed(looks.tint, plain, 0.2) : plain.rgb();
 }
 
 // Of how much longer or shorter a link is than at rest; a tenth is full colour. Sides pale before it: what
@@ -37,12 +37,14 @@ SceneFigure figure_of(const ShownMotion& motion, int frame, const SceneLooks& lo
   SceneFigure figure;
   figure.opacity = looks.opacity;
   const auto at = [&](int point) { return vector_of(motion.at(frame, point)) + looks.shift; };
-  const QRgb joint_color = looks.second ? mixed(theme.second, theme.joint, 0.4) : theme.joint.rgb();
+  const QRgb joint_color = looks.tint.isValid() ? mixed(looks.tint, theme.joint, 0.4) : theme.joint.rgb();
   for (std::size_t i = 0; i < motion.bones.size(); ++i) {
     const ShownMotion::Bone& bone = motion.bones[i];
     const QVector3D from = at(bone.from), to = at(bone.to);
     if (std::isnan(from.x()) || std::isnan(to.x())) continue;
-    QRgb color = side_color(bone.side, looks, theme);
+    // Lines between markers stand back behind them.
+    QRgb color = motion.markers ? mixed(QColor::fromRgb(joint_color), theme.ground, 0.45)
+                                : side_color(bone.side, looks, theme);
     QRgb ball = joint_color;
     if (looks.stretch && !motion.stretch.empty()) {
       const float stretch = motion.stretch[static_cast<std::size_t>(frame) * motion.bones.size() + i];
@@ -67,7 +69,7 @@ SceneFigure figure_of(const ShownMotion& motion, int frame, const SceneLooks& lo
     }
   }
   if (motion.markers) {
-    const float radius = static_cast<float>(std::clamp(motion.size * 0.010, 0.002, 0.05));
+    const float radius = static_cast<float>(std::clamp(motion.size * 0.012, 0.002, 0.05));
     for (int point = 0; point < motion.points; ++point) {
       const QVector3D p = at(point);
       if (!std::isnan(p.x()))
@@ -181,7 +183,7 @@ void add_motion(Scene& scene, const ShownMotion& motion, double seconds, const S
     figure.character = std::move(character);
     figure.motion = motion.value;
     figure.frame = static_cast<std::size_t>(frame);
-    figure.mesh_color = looks.second ? theme.second.rgb() : theme.skin.rgb();
+    figure.mesh_color = looks.tint.isValid() ? looks.tint.rgb() : theme.skin.rgb();
     figure.capsules.clear();
   }
   scene.figures.push_back(std::move(figure));
@@ -192,6 +194,19 @@ void add_motion(Scene& scene, const ShownMotion& motion, double seconds, const S
 
 SceneColors colors_of(const Theme& theme) {
   return {theme.sky.rgb(), theme.ground.rgb(), theme.ground_line.rgb(), theme.shadow.rgba()};
+}
+
+QColor color_of_shown(const Theme& theme, std::size_t index) {
+  const QColor colors[] = {theme.accent,
+                           theme.second,
+                           theme.warning,
+                           theme.missing,
+                           theme.port("Contacts"),
+                           theme.error,
+                           theme.port("Character"),
+                           theme.port("Metrics"),
+                           theme.port("Components")};
+  return colors[index % std::size(colors)];
 }
 
 SceneBox box_of(const ShownMotion& motion) {

@@ -65,40 +65,41 @@ void OrbitCamera::frame(QVector3D low, QVector3D high) {
   distance = radius / std::sin(field_of_view / degrees / 2) * 1.02f;
 }
 
-void OrbitCamera::frame_closely(const std::vector<QVector3D>& points, float thickness, double shape) {
-  constexpr float room = 1.12f;  // around it, for captions
+void OrbitCamera::frame_closely(const std::vector<QVector3D>& points, float thickness, double shape,
+                                double headroom) {
+  constexpr float edge = 0.05f;  // of a side, left free
   if (points.empty()) return;
-  const float half = std::tan(field_of_view / degrees / 2) / room, wide = static_cast<float>(shape);
-  const float across = shape >= 1 ? half * wide : half, upwards = shape >= 1 ? half : half / wide;
+  const float half = std::tan(field_of_view / degrees / 2), wide = static_cast<float>(shape);
+  const float across = (shape >= 1 ? half * wide : half) * (1 - 2 * edge);
+  const float upwards = shape >= 1 ? half : half / wide;
   const QVector3D away = away_of(*this), side = right(), top = up();
-  // A point x aside and z nearer is inside where |x - centre| ≤ (distance - z) · slope: of all such lines the
-  // outermost on either side give the centre and the distance.
+  // A point x aside and z nearer is inside where x - centre ≤ (distance - z) · slope, and alike on the other
+  // side: of all such lines the outermost two bound the centre, and the distance where they meet.
   struct Extent {
-    float slope, above = -1e30f, below = -1e30f;
+    float slope_above, slope_below, above = -1e30f, below = -1e30f;
     void take(float x, float z, float thick) {
-      above = std::max(above, x + thick + z * slope);
-      below = std::max(below, -x + thick + z * slope);
+      above = std::max(above, x + thick + z * slope_above);
+      below = std::max(below, -x + thick + z * slope_below);
     }
-    float centre() const { return (above - below) / 2; }
-    float distance() const { return (above + below) / 2 / slope; }
+    float distance() const { return (above + below) / (slope_above + slope_below); }
+    float centre(float at) const { return (above - at * slope_above + at * slope_below - below) / 2; }
   };
-  Extent level{across}, upright{upwards};
-  float nearest = -1e30f;
+  Extent level{across, across};
+  Extent upright{upwards * (1 - 2 * std::max(edge, static_cast<float>(headroom))), upwards * (1 - 2 * edge)};
+  float nearest = -1e30f, farthest = 1e30f;
   const QVector3D origin = points.front();
   for (const QVector3D& point : points) {
     const QVector3D p = point - origin;
-    const float z = QVector3D::dotProduct(p, away) + thickness;
-    level.take(QVector3D::dotProduct(p, side), z, thickness);
-    upright.take(QVector3D::dotProduct(p, top), z, thickness);
+    const float z = QVector3D::dotProduct(p, away);
+    level.take(QVector3D::dotProduct(p, side), z + thickness, thickness);
+    upright.take(QVector3D::dotProduct(p, top), z + thickness, thickness);
     nearest = std::max(nearest, z);
+    farthest = std::min(farthest, z);
   }
   // The target lies in the middle of the depth, so that the camera turns around it.
-  float farthest = 1e30f;
-  for (const QVector3D& point : points)
-    farthest = std::min(farthest, QVector3D::dotProduct(point - origin, away));
-  const float middle = (nearest + farthest) / 2;
-  target = origin + level.centre() * side + upright.centre() * top + middle * away;
-  distance = std::max(0.1f, std::max(level.distance(), upright.distance()) - middle);
+  const float middle = (nearest + farthest) / 2, from = std::max(level.distance(), upright.distance());
+  target = origin + level.centre(from) * side + upright.centre(from) * top + middle * away;
+  distance = std::max(0.1f, from - middle);
 }
 
 std::optional<QPointF> OrbitCamera::on_picture(QVector3D point, QSizeF size) const {

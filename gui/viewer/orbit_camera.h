@@ -27,7 +27,9 @@ struct OrbitCamera {
   void frame(QVector3D low, QVector3D high);  // shows the whole box from any side
   // As near as all points are seen whole from this side, with what is around them, in a picture so many
   // times as wide as high.
-  void frame_closely(const std::vector<QVector3D>& points, float thickness, double shape);
+  // `headroom`: share of the height above it that stays free for captions.
+  void frame_closely(const std::vector<QVector3D>& points, float thickness, double shape,
+                     double headroom = 0.05);
   // Where a point of the world lies on a picture of this size, y down; nothing behind the eye.
   std::optional<QPointF> on_picture(QVector3D point, QSizeF size) const;
 };

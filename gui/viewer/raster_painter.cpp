@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "gui/viewer/flat_shapes.h"
+#include "gui/viewer/solid_sheet.h"
 
 namespace kinegraph {
 namespace {
-
-const QVector3D light = QVector3D(0.45f, 1.0f, 0.35f).normalized();
 
 // What the camera makes of a point: where on the picture, how far, and how many pixels a metre is there.
 struct Projector {
@@ -58,81 +57,32 @@ QPainterPath capsule_path(QPointF a, double ra, QPointF b, double rb) {
   return path;
 }
 
-// A surface that faces this way, lit as the OpenGL painter lights it.
-QColor lit(QRgb base, QVector3D normal, QVector3D toward) {
-  const float key = std::max(0.0f, QVector3D::dotProduct(normal, light));
-  const float sky = 0.5f + 0.5f * normal.y();
-  const float head = std::max(0.0f, QVector3D::dotProduct(normal, toward));
-  const float gleam = std::max(0.0f, QVector3D::dotProduct(normal, (light + toward).normalized()));
-  const float share = 0.27f + 0.19f * sky + 0.50f * key + 0.18f * head;
-  const float shine = 25.5f * std::pow(gleam, 24.0f);
-  const auto part = [&](int c) {
-    return std::clamp(static_cast<int>(static_cast<float>(c) * share + shine), 0, 255);
-  };
-  return QColor(part(qRed(base)), part(qGreen(base)), part(qBlue(base)));
-}
-
-// The colours of a ball: a highlight where it faces the light, darker to its rim.
-QBrush ball_brush(QPointF middle, double r, const SceneCapsule& c, QVector3D toward, QVector3D right,
-                  QVector3D up) {
-  const QVector3D lit_side = light - QVector3D::dotProduct(light, toward) * toward;
-  const QVector3D brightest = (toward + 0.8f * lit_side).normalized();
-  const QPointF aim(QVector3D::dotProduct(brightest, right), -QVector3D::dotProduct(brightest, up));
-  QRadialGradient gradient(middle, 1.5 * r, middle + 0.6 * r * aim);
-  gradient.setColorAt(0, lit(c.color, brightest, toward));
-  gradient.setColorAt(0.45, lit(c.color, toward, toward));
-  gradient.setColorAt(1, lit(c.color, (0.35f * toward - lit_side.normalized()).normalized(), toward));
-  return gradient;
-}
-
-void paint_capsule(QPainter& painter, const Projector& eye, const SceneCapsule& c,
-                   const OrbitCamera& camera) {
-  if (!eye.visible(c.a) || !eye.visible(c.b)) return;
-  const QPointF a = eye.spot(c.a), b = eye.spot(c.b);
-  const double ra = std::max(0.6, c.radius_a * eye.pixels_a_metre(c.a));
-  const double rb = std::max(0.6, c.radius_b * eye.pixels_a_metre(c.b));
-  const double thick = std::max(ra, rb);
-  const QVector3D centre = (c.a + c.b) / 2, toward = (camera.eye() - centre).normalized();
-  const QVector3D axis = c.b - c.a, side = QVector3D::crossProduct(axis, toward);
-  painter.setPen(Qt::NoPen);
-  const QPointF along = b - a;
-  const double length = std::hypot(along.x(), along.y());
-  if (side.length() < 1e-4f * std::max(1e-3f, axis.length()) || length < 0.3 * thick) {
-    painter.setBrush(ball_brush((a + b) / 2, thick, c, toward, camera.right(), camera.up()));
-    painter.drawPath(capsule_path(a, ra, b, rb));
-    return;
+// The capsules that the camera sees, and the pixels that they can cover.
+QRect seen_capsules(const Projector& eye, const SceneFigure& figure, const OrbitCamera& camera,
+                    std::vector<SeenCapsule>& all) {
+  QRectF around;
+  for (const SceneCapsule& c : figure.capsules) {
+    if (!eye.visible(c.a) || !eye.visible(c.b)) continue;
+    const QVector3D centre = (c.a + c.b) / 2;
+    SeenCapsule seen;
+    seen.a = eye.spot(c.a);
+    seen.b = eye.spot(c.b);
+    seen.radius_a = std::max(0.6, c.radius_a * eye.pixels_a_metre(c.a));
+    seen.radius_b = std::max(0.6, c.radius_b * eye.pixels_a_metre(c.b));
+    seen.depth_a = eye.depth(c.a);
+    seen.depth_b = eye.depth(c.b);
+    seen.scale = eye.pixels_a_metre(centre);
+    seen.color = c.color;
+    seen.toward = (camera.eye() - centre).normalized();
+    const double thick = std::max(seen.radius_a, seen.radius_b) + 2;
+    around |= QRectF(seen.a, seen.b).normalized().adjusted(-thick, -thick, thick, thick);
+    all.push_back(seen);
   }
-  // A gradient across stands for the roundness: at each share of the way the normal that is seen there.
-  const QVector3D across = side.normalized(), front = QVector3D::crossProduct(across, axis).normalized();
-  QPointF on_picture(along.y() / length, -along.x() / length);
-  if (QVector3D::dotProduct(across, camera.right()) * on_picture.x() -
-          QVector3D::dotProduct(across, camera.up()) * on_picture.y() <
-      0)
-    on_picture = -on_picture;
-  const QPointF middle = (a + b) / 2;
-  QLinearGradient gradient(middle - on_picture * thick, middle + on_picture * thick);
-  for (const float at : {-1.0f, -0.85f, -0.5f, -0.15f, 0.2f, 0.5f, 0.85f, 1.0f}) {
-    const QVector3D normal = at * across + std::sqrt(std::max(0.0f, 1 - at * at)) * front;
-    gradient.setColorAt(0.5 + 0.5 * static_cast<double>(at), lit(c.color, normal, toward));
-  }
-  painter.setBrush(gradient);
-  painter.drawPath(capsule_path(a, ra, b, rb));
-}
-
-// Short pieces of it, so that they can be sorted by depth among others that it passes.
-void add_pieces(const SceneCapsule& c, std::vector<SceneCapsule>& all) {
-  const float thick = std::max(c.radius_a, c.radius_b), length = (c.b - c.a).length();
-  const int count = std::clamp(static_cast<int>(std::ceil(length / (2 * std::max(1e-4f, thick)))), 1, 6);
-  for (int i = 0; i < count; ++i) {
-    const float from = static_cast<float>(i) / static_cast<float>(count);
-    const float to = static_cast<float>(i + 1) / static_cast<float>(count);
-    all.push_back({c.a + from * (c.b - c.a), c.a + to * (c.b - c.a),
-                   c.radius_a + from * (c.radius_b - c.radius_a), c.radius_a + to * (c.radius_b - c.radius_a),
-                   c.color});
-  }
+  return around.intersected(eye.where).toAlignedRect();
 }
 
 QVector3D on_floor(QVector3D p, float floor) {
+  const QVector3D light = light_way();
   return p - light * ((p.y() - floor) / light.y());
 }
 
@@ -346,7 +296,8 @@ void paint_mesh(QPainter& painter, const Projector& eye, const PosedMesh& mesh, 
     const QVector3D toward = (from - a.at).normalized();
     QVector3D n = (a.normal + b.normal + c.normal).normalized();
     if (QVector3D::dotProduct(n, toward) < 0) n = -n;
-    faces.push_back({eye.depth((a.at + b.at + c.at) / 3), {a.spot, b.spot, c.spot}, lit(color, n, toward)});
+    faces.push_back(
+        {eye.depth((a.at + b.at + c.at) / 3), {a.spot, b.spot, c.spot}, QColor(lit_color(color, n, toward))});
   };
   for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
     MeshCorner corners[3];
@@ -371,13 +322,9 @@ void paint_mesh(QPainter& painter, const Projector& eye, const PosedMesh& mesh, 
 void paint_figure(QPainter& painter, const Projector& eye, const SceneFigure& figure,
                   const OrbitCamera& camera, bool smooth) {
   if (figure.mesh) paint_mesh(painter, eye, *figure.mesh, figure.mesh_color, camera.eye(), smooth);
-  std::vector<SceneCapsule> pieces;
-  for (const SceneCapsule& c : figure.capsules) add_pieces(c, pieces);
-  std::vector<std::pair<float, const SceneCapsule*>> order;
-  for (const SceneCapsule& c : pieces)
-    order.emplace_back(eye.depth((c.a + c.b) / 2) - std::max(c.radius_a, c.radius_b), &c);
-  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (const auto& [depth, c] : order) paint_capsule(painter, eye, *c, camera);
+  std::vector<SeenCapsule> capsules;
+  const QRect area = seen_capsules(eye, figure, camera, capsules);
+  if (!area.isEmpty()) painter.drawImage(area.topLeft(), solid_sheet(area, capsules, camera.up()));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gui/viewer/marker_links.h"
 #include "headless/draws/skeleton_figure.h"
 #include "nodes/feet/detect_contacts.h"
 #include "nodes/motion/kinematics.h"
@@ -184,9 +185,12 @@ std::shared_ptr<const ShownMotion> of_points(const Points& markers, ValuePtr val
       std::max({0.05, static_cast<double>(high.y - low.y), 0.3 * (high.x - low.x), 0.3 * (high.z - low.z)});
   // Markers of a face hang in the air: their floor lies under them.
   shown->floor = low.y > shown->size || low.y < -0.5 * shown->size ? low.y : 0;
-  for (const auto& [from, to] : markers.links)
+  const auto& given = markers.links;
+  std::vector<std::pair<int, int>> links(given.begin(), given.end());
+  if (links.empty()) links = steady_links(*shown);
+  for (const auto& [from, to] : links)
     shown->bones.push_back(
-        {from, to, static_cast<float>(0.004 * shown->size), ShownMotion::Side::middle, 0, -1});
+        {from, to, static_cast<float>(0.0035 * shown->size), ShownMotion::Side::middle, 0, -1});
   return shown;
 }
 

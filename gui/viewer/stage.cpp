@@ -75,6 +75,10 @@ double Stage::shape() const {
   return std::max(1.0, cell.width() * width()) / std::max(1.0, cell.height() * height());
 }
 
+double Stage::cell_height() const {
+  return (cells_.empty() ? 1.0 : cells_.front().where.height()) * height();
+}
+
 // Upright at the edge, where it keeps clear of the feet: longer above, shorter below.
 void Stage::paint_legend(QPainter& painter) const {
   constexpr double edge = 9, bar_width = 8, space = 8;
@@ -153,6 +157,7 @@ void Stage::paintEvent(QPaintEvent*) {
                         cell.clip.height() * height());
       if (cell.clip.right() < 0.999)
         draw_hairline(painter, part.topRight(), part.bottomRight(), theme_->line);
+      if (cell.clip.left() > 0.001) draw_hairline(painter, part.topLeft(), part.bottomLeft(), theme_->line);
       if (cell.clip.bottom() < 0.999)
         draw_hairline(painter, part.bottomLeft(), part.bottomRight(), theme_->line);
     }

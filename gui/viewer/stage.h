@@ -29,8 +29,9 @@ class Stage : public QWidget {
   void show_cells(std::vector<SceneCell> cells, std::vector<Caption> captions, bool moving);
   void set_colors(const SceneColors& colors, const Theme& theme);
   void set_wipe(bool on);
-  void set_legend(bool on);  // of the colours of stretched links
-  double shape() const;      // of a cell: so many times as wide as high
+  void set_legend(bool on);    // of the colours of stretched links
+  double shape() const;        // of a cell: so many times as wide as high
+  double cell_height() const;  // pixels
   double wipe() const { return wipe_; }
 
   OrbitCamera& camera() { return camera_; }

@@ -21,7 +21,8 @@
 namespace kinegraph {
 namespace {
 
-constexpr double caption_row = 24;  // pixels from one caption to the next
+constexpr double caption_row = 24;     // pixels from one caption to the next
+constexpr double caption_height = 34;  // of a cell, that its caption stands in
 constexpr int patience_ms = 250;
 
 bool same_targets(const std::vector<Target>& a, const std::vector<Target>& b) {
@@ -29,17 +30,34 @@ bool same_targets(const std::vector<Target>& a, const std::vector<Target>& b) {
                     [](const Target& x, const Target& y) { return x.node == y.node && x.port == y.port; });
 }
 
-// Where all of it is through the clip; with `follow` counted from the ground under the body.
-void add_points(const ShownMotion& motion, bool follow, std::vector<QVector3D>& all) {
+// Where all of it is at some moments of the clip, counted from `ground` at the moment, in seconds.
+template <class Ground>
+void add_points(const ShownMotion& motion, int first, int last, Ground ground, std::vector<QVector3D>& all) {
   constexpr int looks = 24;
-  for (int k = 0; k < looks; ++k) {
-    const int frame = k * (motion.frames - 1) / (looks - 1);
-    const QVector3D ground = follow ? ground_under(motion, frame) : QVector3D();
+  for (int k = 0; k < (first == last ? 1 : looks); ++k) {
+    const int frame = first + k * (last - first) / (looks - 1);
+    const QVector3D from = ground(frame / motion.fps);
     for (int point = 0; point < motion.points; ++point) {
       const ShownMotion::Point3& p = motion.at(frame, point);
-      if (!std::isnan(p.x)) all.push_back(QVector3D(p.x, p.y, p.z) - ground);
+      if (!std::isnan(p.x)) all.push_back(QVector3D(p.x, p.y, p.z) - from);
     }
   }
+}
+
+// Of cells beside each other: as many a row as make the bodies in them largest.
+int columns_for(int count, QSizeF stage) {
+  constexpr double body = 0.62;  // as wide as high
+  int best = 1;
+  double largest = 0;
+  for (int columns = 1; columns <= count; ++columns) {
+    const int rows = (count + columns - 1) / columns;
+    const double high = std::min(stage.height() / rows, stage.width() / columns / body);
+    if (high > largest * 1.001) {
+      largest = high;
+      best = columns;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -264,9 +282,19 @@ void Viewer::frame_all() {
   update_scene();  // into cells of the shape that they have now
   std::vector<QVector3D> points;
   float thickness = 0;
+  const ShownMotion* leader = nullptr;
   for (const Shown& one : shown_) {
     if (!one.motion) continue;
-    add_points(*one.motion, looks_.follow, points);
+    // On one stage the camera goes along with the first; the others are where they are now beside it.
+    if (!leader || arrangement_ == Arrangement::side_by_side) leader = one.motion.get();
+    const int now = one.motion->frame_at(playback_.time());
+    const bool leads = leader == one.motion.get() || !looks_.follow;
+    add_points(
+        *one.motion, leads ? 0 : now, leads ? one.motion->frames - 1 : now,
+        [&](double seconds) {
+          return looks_.follow ? ground_under(*leader, leader->frame_at(seconds)) : QVector3D();
+        },
+        points);
     // Bones are thicker than the lines between their joints, and skins than bones.
     thickness = std::max(thickness, static_cast<float>(0.03 * one.motion->size));
     if (!one.character) continue;
@@ -275,7 +303,8 @@ void Viewer::frame_all() {
       thickness = std::max({thickness, std::abs(skin.low[axis]), std::abs(skin.high[axis])});
   }
   if (points.empty()) return;
-  stage_->camera().frame_closely(points, thickness, stage_->shape());
+  stage_->camera().frame_closely(points, thickness, stage_->shape(),
+                                 std::min(0.25, caption_height / std::max(1.0, stage_->cell_height())));
   framed_camera_ = stage_->camera();
   stage_->camera_changed();
   update_scene();
@@ -415,11 +444,6 @@ void Viewer::take_values() {
   update_scene();
 }
 
-QColor Viewer::color_of(std::size_t index) const {
-  const QColor colors[] = {theme_->accent, theme_->second, theme_->warning, theme_->missing, theme_->good};
-  return colors[index % std::size(colors)];
-}
-
 QString Viewer::caption_of(const Shown& one) const {
   const QString name = QString::fromStdString(one.target.node);
   return one.place > 0 ? QString("%1  %2").arg(one.place).arg(name) : name;
@@ -458,12 +482,11 @@ void Viewer::update_scene() {
     SceneCell cell;
     cell.scene.camera_shift = followed(*ready.front());
     for (std::size_t i = 0; i < ready.size(); ++i) {
-      looks.second = i > 0;
+      if (i > 0) looks.tint = color_of_shown(*theme_, i);
       looks.opacity = i > 0 ? 0.5f : 1.0f;
       looks.contacts_of = ready[i]->contacts();
       add_motion(cell.scene, *ready[i]->motion, seconds, looks, *theme_, ready[i]->character);
-      captions.push_back(
-          {QRectF(0, 0, 1, 1), caption_of(*ready[i]), i > 0 ? theme_->second : theme_->accent, false});
+      captions.push_back({QRectF(0, 0, 1, 1), caption_of(*ready[i]), color_of_shown(*theme_, i), false});
       captions.back().cell.setTop(
           std::min(0.9, caption_row * static_cast<double>(i) / std::max(1, stage_->height())));
     }
@@ -476,26 +499,26 @@ void Viewer::update_scene() {
       cell.clip = i == 0 ? QRectF(0, 0, at, 1) : QRectF(at, 0, 1 - at, 1);
       looks.contacts_of = ready[i]->contacts();
       add_motion(cell.scene, *ready[i]->motion, seconds, looks, *theme_, ready[i]->character);
-      captions.push_back({cell.clip, caption_of(*ready[i]), color_of(i), i == 1});
+      captions.push_back({cell.clip, caption_of(*ready[i]), color_of_shown(*theme_, i), i == 1});
       cells.push_back(std::move(cell));
     }
   } else {
     const int count = static_cast<int>(ready.size());
-    const double shape = static_cast<double>(std::max(1, stage_->width())) / std::max(1, stage_->height());
-    const int columns =
-        std::clamp(static_cast<int>(std::ceil(std::sqrt(count * shape * 1.4))), 1, std::max(1, count));
+    const int columns = columns_for(count, QSizeF(stage_->size()));
     const int rows = count > 0 ? (count + columns - 1) / columns : 1;
     for (int i = 0; i < count; ++i) {
       const Shown& one = *ready[static_cast<std::size_t>(i)];
       SceneCell cell;
-      // The last row's cells are wider where it has fewer.
+      // All of one size, so that they compare; a last row of fewer stands in the middle.
       const int row = i / columns, in_row = row == rows - 1 ? count - row * columns : columns;
-      cell.where = cell.clip = QRectF(static_cast<double>(i % columns) / in_row,
-                                      static_cast<double>(row) / rows, 1.0 / in_row, 1.0 / rows);
+      const double before = (columns - in_row) / 2.0 + i % columns;
+      cell.where = cell.clip =
+          QRectF(before / columns, static_cast<double>(row) / rows, 1.0 / columns, 1.0 / rows);
       cell.scene.camera_shift = followed(one);
       looks.contacts_of = one.contacts();
       add_motion(cell.scene, *one.motion, seconds, looks, *theme_, one.character);
-      captions.push_back({cell.clip, caption_of(one), color_of(static_cast<std::size_t>(i)), false});
+      captions.push_back(
+          {cell.clip, caption_of(one), color_of_shown(*theme_, static_cast<std::size_t>(i)), false});
       cells.push_back(std::move(cell));
     }
   }

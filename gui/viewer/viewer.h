@@ -97,7 +97,6 @@ class Viewer : public QWidget {
   void build_show_menu();
   void toggle_pin(int place);
   void set_follow(bool follow);
-  QColor color_of(std::size_t index) const;
   QString caption_of(const Shown& one) const;
 
   Session& session_;

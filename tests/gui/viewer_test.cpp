@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <QColor>
+#include <QPainter>
 #include <cmath>
 
 #include "graph/file/read.h"
+#include "gui/look/hairline.h"
 #include "gui/viewing/looked_at.h"
 #include "tests/gui/mouse.h"
 #include "tests/gui/viewing_window.h"
@@ -208,6 +210,108 @@ TEST(Viewer, ShowsPointsOfANodeThatIsFedWithPointsThoughItCanMakeMotions) {
   const auto motion = nearest_output(document, registry, "calmer", {"Motion", "Points"});
   ASSERT_TRUE(motion);
   EXPECT_EQ(motion->node + "." + motion->port, "calmer.motion");
+}
+
+TEST(Viewer, LooksTheSameWithOpenGLAndWithQPainter) {
+  const auto pictures = [] {
+    ViewingWindow window(five_gaits);
+    window.session.select({"walk"});
+    std::vector<QImage> all;
+    if (!window.shows_motions()) return all;
+    window.playback.set_frame(40);
+    window.viewer->frame_all();
+    for (const Theme* theme : {&dark_theme(), &light_theme()}) {
+      window.set_theme(*theme);
+      all.push_back(window.viewer->picture());
+    }
+    return all;
+  };
+  const std::vector<QImage> drawn = pictures();
+  qputenv("KINEGRAPH_OPENGL", "0");
+  const std::vector<QImage> painted = pictures();
+  qunsetenv("KINEGRAPH_OPENGL");
+  ASSERT_EQ(drawn.size(), 2u);
+  ASSERT_EQ(painted.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_EQ(drawn[i].size(), painted[i].size());
+    // By small tiles: edges of bones and lines may lie half a pixel apart.
+    constexpr int tile = 12;
+    double worst = 0, sum = 0;
+    int tiles = 0;
+    for (int y = 0; y + tile <= drawn[i].height(); y += tile)
+      for (int x = 0; x + tile <= drawn[i].width(); x += tile, ++tiles) {
+        double difference = 0;
+        for (int k = 0; k < tile * tile; ++k)
+          difference += qGray(drawn[i].pixel(x + k % tile, y + k / tile)) -
+                        qGray(painted[i].pixel(x + k % tile, y + k / tile));
+        difference = std::abs(difference / (tile * tile));
+        worst = std::max(worst, difference);
+        sum += difference;
+      }
+    EXPECT_LT(sum / tiles, 1.5);
+    EXPECT_LT(worst, 40);
+  }
+}
+
+TEST(Viewer, FramesAllOfABodyAsLargeAsItFits) {
+  OrbitCamera camera;
+  camera.yaw = 1.1f;
+  camera.pitch = 0.4f;
+  std::vector<QVector3D> points;
+  for (int i = 0; i < 60; ++i)
+    points.emplace_back(0.3f * std::sin(0.7f * static_cast<float>(i)) + 4, 0.03f * static_cast<float>(i),
+                        0.02f * static_cast<float>(i) - 3);
+  for (const QSizeF size : {QSizeF(900, 300), QSizeF(300, 300), QSizeF(200, 500)}) {
+    camera.frame_closely(points, 0.02f, size.width() / size.height(), 0.12);
+    double left = 1, right = 0, top = 1, bottom = 0;
+    for (const QVector3D& point : points) {
+      const auto at = camera.on_picture(point, size);
+      ASSERT_TRUE(at);
+      left = std::min(left, at->x() / size.width());
+      right = std::max(right, at->x() / size.width());
+      top = std::min(top, at->y() / size.height());
+      bottom = std::max(bottom, at->y() / size.height());
+    }
+    EXPECT_GT(left, 0.04);
+    EXPECT_LT(right, 0.96);
+    EXPECT_GT(top, 0.11);  // the caption stands there
+    EXPECT_LT(bottom, 0.96);
+    EXPECT_TRUE(bottom - top > 0.75 || right - left > 0.75) << bottom - top << " " << right - left;
+  }
+}
+
+TEST(Viewer, LinksMarkersThatStayTogetherAndNoneThatFly) {
+  ViewingWindow sparks(R"({"format": "kinegraph", "schema": 1, "nodes": {"sparks": {"type": "Burst"}}})");
+  ASSERT_TRUE(sparks.shows_motions());
+  EXPECT_TRUE(sparks.viewer->shown().front().motion->bones.empty());
+  KINEGRAPH_NEEDS_MOCAP();
+  ViewingWindow body(
+      R"({"format": "kinegraph", "schema": 1, "nodes": {"clip": {"type": "Load", "params": {"file": ")" +
+      mocap("points/cmu_02_01.c3d") + R"("}}}})");
+  ASSERT_TRUE(body.shows_motions());
+  const ShownMotion& motion = *body.viewer->shown().front().motion;
+  EXPECT_GE(motion.bones.size(), static_cast<std::size_t>(motion.points) * 3 / 4);
+  for (const ShownMotion::Bone& bone : motion.bones) EXPECT_LT(bone.from, bone.to);
+}
+
+TEST(Hairlines, AreOneSharpPixelAtOneAndAHalfTimesTheScale) {
+  for (const double scale : {1.0, 1.25, 1.5, 2.0}) {
+    QImage image(QSize(60, 60), QImage::Format_RGB32);
+    image.setDevicePixelRatio(scale);
+    image.fill(Qt::black);
+    {
+      QPainter painter(&image);
+      painter.setRenderHint(QPainter::Antialiasing);
+      draw_hairline(painter, QPointF(10.3, 4), QPointF(10.3, 20), Qt::white);
+    }
+    int lit = 0;
+    for (int x = 0; x < image.width(); ++x) {
+      const int grey = qGray(image.pixel(x, 15));
+      EXPECT_TRUE(grey == 0 || grey == 255) << "scale " << scale << ", column " << x << ": " << grey;
+      lit += grey == 255 ? 1 : 0;
+    }
+    EXPECT_EQ(lit, static_cast<int>(scale));
+  }
 }
 
 TEST(Viewer, ShowsARealClip) {

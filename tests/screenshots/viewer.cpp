@@ -22,9 +22,14 @@ void nine(const Theme& theme, const QDir& into, const QString& end) {
   const char* const gaits[] = {"walk", "run", "sneak", "strut", "hobble", "jog", "stroll", "creep", "limp"};
   QByteArray nodes;
   for (int i = 0; i < 9; ++i) {
-    const QByteArray name = gaits[i];
-    nodes += (i ? ", \"" : "\"") + name + "\": {\"type\": \"Gait\", \"params\": {\"gait\": \"" +
-             gaits[i % 5] + "\", \"seconds\": 4, \"seed\": " + QByteArray::number(i) + "}}";
+    // Each another way of going: those after the fifth lean, crouch and swing their arms in their own way.
+    const QByteArray own = i < 5 ? QByteArray()
+                                 : ", \"lean\": " + QByteArray::number(4 * i - 26) +
+                                       ", \"crouch\": " + QByteArray::number(0.03 * (i - 4)) +
+                                       ", \"arm_swing\": " + QByteArray::number(3 - 0.3 * i);
+    nodes += (i ? QByteArray(", \"") : QByteArray("\"")) + gaits[i] +
+             "\": {\"type\": \"Gait\", \"params\": {\"seconds\": 4, \"speed\": 1.2, \"gait\": \"" +
+             gaits[i % 5] + "\"" + own + "}}";
   }
   shot.text(nodes);
   for (int i = 0; i < 9; ++i) shot.viewer().pin(i + 1, gaits[i]);
@@ -89,7 +94,7 @@ void viewer_pictures(const Theme& theme, const QDir& into, const QString& end) {
     take("viewer_overlaid");
     shot.viewer().set_arrangement(Viewer::Arrangement::wipe);
     take("viewer_wipe");
-    drag_wipe(shot, 0.5, 0.3);
+    drag_wipe(shot, 0.5, 0.46);
     shot.take_dock("viewer_wipe_dragged" + end, "Viewer");
   }
   nine(theme, into, end);
