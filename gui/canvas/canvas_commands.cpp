@@ -196,7 +196,10 @@ void GraphCanvas::cut_selected() {
 }
 
 void GraphCanvas::paste() {
-  const std::string text = QApplication::clipboard()->text().toStdString();
+  // Out of a chat it comes with words around it.
+  std::string text = QApplication::clipboard()->text().toStdString();
+  if (const auto from = text.find('{'), to = text.rfind('}'); from < to && to != std::string::npos)
+    text = text.substr(from, to - from + 1);
   const ReadResult read = read_document(text, "clipboard", session_.registry());
   if (has_error(read.problems) || read.document.read_only || read.document.nodes.empty()) {
     set_hint(tr("The clipboard holds no nodes."), to_view(pointer()), true);

@@ -15,6 +15,10 @@ QString folder_in(QStandardPaths::StandardLocation location) {
   return folder;
 }
 
+QString hidden_name(const QString& path) {
+  return "." + (path.isEmpty() ? QString("untitled.kg.json") : QFileInfo(path).fileName()) + ".autosave";
+}
+
 // An autosave that is newer than its graph.
 bool is_unsaved_work(const QString& autosave, const QString& graph) {
   const QFileInfo file(autosave);
@@ -34,13 +38,16 @@ AutosaveSlot::AutosaveSlot(const QString& path, const QString& folder) : path_(p
 }
 
 QString AutosaveSlot::file_of(int slot) const {
-  const QString name =
-      "." + (path_.isEmpty() ? QString("untitled.kg.json") : QFileInfo(path_).fileName()) + ".autosave";
-  if (slot == 0 && !path_.isEmpty() && QFileInfo(folder_).isWritable()) return QDir(folder_).filePath(name);
+  if (slot == 0 && !path_.isEmpty() && QFileInfo(folder_).isWritable())
+    return QDir(folder_).filePath(hidden_name(path_));
+  return in_state_folder(slot);
+}
+
+QString AutosaveSlot::in_state_folder(int slot) const {
   // Files of one name in several folders must not share an autosave.
   const QString number = slot ? "." + QString::number(slot + 1) : QString();
   return QDir(folder_in(QStandardPaths::AppLocalDataLocation))
-      .filePath(QString::number(qHash(folder_), 16) + number + name);
+      .filePath(QString::number(qHash(folder_), 16) + number + hidden_name(path_));
 }
 
 std::unique_ptr<QLockFile> AutosaveSlot::lock_of(int slot) const {
@@ -55,12 +62,15 @@ std::unique_ptr<QLockFile> AutosaveSlot::lock_of(int slot) const {
 QStringList AutosaveSlot::left_behind() const {
   QStringList found;
   for (int slot = 0; slot < most_slots; ++slot) {
-    const QString fresh = file_of(slot), kept = fresh + aside;
-    // What was put aside was never answered: that the graph was saved since says nothing about it.
     QStringList here;
-    // Of another editor's work it says nothing either that this one saved the graph since.
-    if (is_unsaved_work(fresh, slot == 0 ? path_ : QString())) here << fresh;
-    if (is_unsaved_work(kept, {})) here << kept;
+    QStringList places{file_of(slot)};
+    if (const QString other = in_state_folder(slot); other != places.front()) places << other;
+    for (const QString& fresh : places) {
+      // Of another editor's work it says nothing that this one saved the graph since.
+      if (is_unsaved_work(fresh, slot == 0 ? path_ : QString())) here << fresh;
+      // What was put aside was never answered: that the graph was saved since says nothing about it either.
+      if (is_unsaved_work(fresh + aside, {})) here << fresh + aside;
+    }
     if (!here.isEmpty() && (slot == number_ || lock_of(slot)->tryLock(0))) found << here;
   }
   return found;

@@ -16,6 +16,8 @@ class AutosaveSlot {
   AutosaveSlot(const QString& path, const QString& folder);
 
   QString file() const { return file_of(number_); }
+  // Where the work is kept when there is no room beside the graph; the same where it isn't kept there.
+  QString other_file() const { return in_state_folder(number_); }
   bool is_first() const { return number_ == 0; }
   // What ended sessions left, the freshest of each slot first: files of slots that nobody holds any more, and
   // its own.
@@ -25,6 +27,7 @@ class AutosaveSlot {
 
  private:
   QString file_of(int slot) const;
+  QString in_state_folder(int slot) const;
   std::unique_ptr<QLockFile> lock_of(int slot) const;
 
   QString path_, folder_;

@@ -235,16 +235,20 @@ void Session::discard_found() {
 void Session::discard_autosave() {
   autosave_.stop();
   QFile::remove(autosave_path());
+  QFile::remove(slot().other_file());
 }
 
 bool Session::write_autosave() {
   if (!is_modified() || is_read_only()) return false;
-  try {
-    write_file_atomically(autosave_path().toStdString(), text());
-    return true;
-  } catch (const Failure&) {
-    return false;  // the next edit tries again; a full disk must not stop anyone from working
+  const std::string work = text();
+  for (const QString& file : {autosave_path(), slot().other_file()}) {
+    try {
+      write_file_atomically(file.toStdString(), work);
+      return true;
+    } catch (const Failure&) {  // a full disk must not stop anyone from working
+    }
   }
+  return false;  // the next edit tries again
 }
 
 bool Session::perform(const std::function<Edit(const Document&, const Registry&)>& make) {

@@ -224,7 +224,8 @@ QHeaderView { background: %1; }
 QHeaderView::section { background: %1; color: %7; border: none; border-bottom: 1px solid %3; padding: 4px 11px; }
 QTabBar::tab { padding: 6px 12px; border: none; border-bottom: 2px solid transparent; color: %7; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
-QTabBar::close-button { image: url(:/kinegraph/close.png); border-radius: 3px; margin: 2px; }
+QTabBar::close-button { image: url(:/kinegraph/close.png); border-radius: 3px; margin: 1px 2px 4px 0px; }
+QTabBar#pages::tab { padding-right: 4px; }
 QTabBar::close-button:hover { background: %3; }
 QTabBar#pages { background: %1; }
 QTabBar::scroller { width: 28px; }

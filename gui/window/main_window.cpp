@@ -52,6 +52,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
                  QMainWindow::GroupedDragging);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   setAcceptDrops(true);
+  setWindowIcon(icon(Sign::graph, light_theme()));
   auto* middle = new QWidget;
   auto* column = new QVBoxLayout(middle);
   column->setContentsMargins(0, 0, 0, 0);
@@ -147,10 +148,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   connect(&watcher_, &QFileSystemWatcher::fileChanged, this, &MainWindow::file_changed_on_disk);
   connect(&session_, &Session::meaning_changed, this, &MainWindow::watch_other_files);
   connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, &MainWindow::file_changed_on_disk);
-  connect(&reload_, &QTimer::timeout, this, [this] {
-    if (std::exchange(inside_changed_, false)) session_.reopen_inside();
-    evaluate();
-  });
+  connect(&reload_, &QTimer::timeout, this, &MainWindow::look_at_changed_files);
 
   resize(1280, 800);
   bool dark = true;

@@ -100,7 +100,10 @@ class MainWindow : public QMainWindow {
   void relink();  // looks for files that are missing
   void offer_missing_files();
   bool save_what_is_inside();  // false: the person would rather not run
+  void look_at_changed_files();
+  void look_at_own_file();
   void offer_merge(const std::string& now);
+  void offer_what_is_there(const std::string& now);
   void say_conflicts(const Merge& merged, const Document& theirs);
   // The file isn't what was read or saved here: offers to merge rather than to write over it.
   bool changed_by_others();
@@ -144,6 +147,7 @@ class MainWindow : public QMainWindow {
   bool laid_out_ = false;  // the docks have their sizes
   bool is_slow_ = false;   // what is evaluated takes long enough to be shown
   bool evaluation_due_ = false, progress_due_ = false, inside_changed_ = false;
+  bool own_changed_ = false, clip_changed_ = false;  // on disk, since it was looked at
 };
 
 }  // namespace kinegraph

@@ -2,6 +2,7 @@
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
+#include <utility>
 
 #include "graph/file/diff.h"
 #include "graph/file/merge.h"
@@ -17,6 +18,7 @@ namespace kinegraph {
 namespace {
 
 constexpr int gone_after_ms = 300;
+constexpr auto on_disk = "disk";  // what notices of the graph's file are about
 
 std::string bytes_of(const QString& path) {
   QFile file(path);
@@ -89,41 +91,49 @@ void MainWindow::watch_other_files() {
 }
 
 void MainWindow::file_changed_on_disk(const QString& path) {
-  // A file that is written aside and renamed is a new one to the watcher.
-  QTimer::singleShot(200, this, &MainWindow::watch_files);
-  // It was gone, and is there again.
-  if (QFileInfo(path).isDir() && QFileInfo(session_.path()).absolutePath() == path &&
-      QFile::exists(session_.path()) && !watcher_.files().contains(session_.path()))
-    file_changed_on_disk(session_.path());
-  if (session_.files_inside().contains(path) || QFileInfo(path).isDir()) {
+  const QString own = session_.path();
+  if (path == own)
+    own_changed_ = true;
+  else if (!QFileInfo(path).isDir())
+    (session_.files_inside().contains(path) ? inside_changed_ : clip_changed_) = true;
+  else {
     inside_changed_ = true;
-    reload_.start();
-    return;
+    // It was gone, and is there again.
+    own_changed_ |=
+        QFileInfo(own).absolutePath() == path && QFile::exists(own) && !watcher_.files().contains(own);
   }
-  if (path != session_.path()) {
-    reload_.start();  // a clip: what depends on it is evaluated again
-    return;
-  }
-  if (!QFile::exists(path)) {
+  reload_.start();  // once nothing more happens to them
+}
+
+// A file that is written aside and renamed is a new one to the watcher: it is watched before it is looked at,
+// so that nothing that happens in between goes by.
+void MainWindow::look_at_changed_files() {
+  watch_files();
+  if (std::exchange(own_changed_, false)) look_at_own_file();
+  const bool inside = std::exchange(inside_changed_, false), clip = std::exchange(clip_changed_, false);
+  if (inside) session_.reopen_inside();
+  if (inside || clip) evaluate();
+}
+
+void MainWindow::look_at_own_file() {
+  const QString path = session_.path();
+  const bool there = QFile::exists(path);
+  const std::string now = bytes_of(path);
+  if (now.empty()) {
     // Who writes it anew may be between the old and the new one.
-    QTimer::singleShot(gone_after_ms, this, [this, path] {
+    QTimer::singleShot(gone_after_ms, this, [this, path, there] {
       if (path != session_.path()) return;
-      if (QFile::exists(path)) return file_changed_on_disk(path);
+      if (QFile::exists(path) != there || !bytes_of(path).empty()) return look_at_own_file();
+      if (there) return offer_merge({});
       notice_->say(NoticeBar::Kind::warning,
                    tr("%1 is not on the disk any more. What is open here is kept.").arg(session_.title()),
                    {{tr("Save it again"), [this] { save(); }}});
-    });
-    return;
-  }
-  const std::string now = bytes_of(path);
-  if (now.empty()) {
-    // Who writes it may have only begun.
-    QTimer::singleShot(gone_after_ms, this, [this, path] {
-      if (path == session_.path() && QFile::exists(path) && bytes_of(path).empty()) offer_merge({});
+      notice_->set_topic(on_disk);
     });
     return;
   }
   if (now == session_.text_on_disk() || now == session_.text()) {
+    notice_->done_with(on_disk);
     if (session_.refused_file().path == path) session_.forget_refused();  // it was mended
     return;
   }
@@ -131,6 +141,11 @@ void MainWindow::file_changed_on_disk(const QString& path) {
 }
 
 void MainWindow::offer_merge(const std::string& now) {
+  offer_what_is_there(now);
+  notice_->set_topic(on_disk);
+}
+
+void MainWindow::offer_what_is_there(const std::string& now) {
   const std::string path = session_.path().toStdString();
   const ReadResult theirs = read_document(now, path, registry_);
   if (has_error(theirs.problems)) {

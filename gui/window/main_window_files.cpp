@@ -156,6 +156,7 @@ bool MainWindow::save() {
   if (changed_by_others()) return false;
   try {
     session_.save();
+    notice_->done_with("disk");
     watch_files();
     statusBar()->showMessage(tr("Saved"), 2000);
     return true;
@@ -172,6 +173,7 @@ bool MainWindow::save_as() {
   if (!path.endsWith(".kg.json")) path += path.endsWith(".kg") ? ".json" : ".kg.json";
   try {
     session_.save_as(path);
+    notice_->done_with("disk");
     watch_files();
     remember_recent(session_.path());
     return true;

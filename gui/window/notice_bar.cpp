@@ -79,6 +79,7 @@ void NoticeBar::say(Kind kind, const QString& message, std::vector<Answer> answe
   }
   buttons_.clear();
   kind_ = kind;
+  topic_.clear();
   static const char* const names[] = {"info", "good", "warning", "error"};
   setProperty("kind", QString(names[static_cast<int>(kind)]));
   style()->unpolish(this);  // its edge has the colour of its kind

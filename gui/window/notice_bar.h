@@ -2,6 +2,7 @@
 // way.
 #pragma once
 #include <QFrame>
+#include <QString>
 #include <QTimer>
 #include <functional>
 #include <vector>
@@ -25,6 +26,12 @@ class NoticeBar : public QFrame {
   // `seconds` 0 = until it is answered or replaced.
   void say(Kind kind, const QString& message, std::vector<Answer> answers = {}, int seconds = 0);
 
+  // What the words that stand here are about, so that they go once it is settled elsewhere.
+  void set_topic(const char* topic) { topic_ = topic; }
+  void done_with(const char* topic) {
+    if (topic_ == topic) hide();
+  }
+
  protected:
   void changeEvent(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
@@ -34,6 +41,7 @@ class NoticeBar : public QFrame {
   void set_words();
 
   Kind kind_ = Kind::info;
+  QString topic_;
   QLabel* sign_;
   QLabel* label_;
   QToolButton* close_;

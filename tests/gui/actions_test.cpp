@@ -57,7 +57,7 @@ TEST(EditorActions, EveryEntryOfAMenuHasALetterOfItsOwn) {
   for (QMenu* menu : editor.window.menuBar()->findChildren<QMenu*>()) {
     std::set<QString> letters;
     for (const QAction* action : menu->actions()) {
-      if (action->isSeparator() || action->menu() == nullptr && action->objectName().isEmpty()) continue;
+      if (action->isSeparator() || (!action->menu() && action->objectName().isEmpty())) continue;
       const qsizetype mark = action->text().indexOf('&');
       ASSERT_GE(mark, 0) << action->text().toStdString();
       EXPECT_TRUE(letters.insert(action->text().mid(mark + 1, 1).toLower()).second)

@@ -136,6 +136,15 @@ TEST(EditorCanvas, CopiedNodesAreGraphTextAndPasteWithTheirLinks) {
   EXPECT_EQ(linked, 2u);
 }
 
+TEST(EditorCanvas, NodesPasteOutOfAChatToo) {
+  Editor editor;
+  editor.add("gait");
+  editor.key(Qt::Key_C, Qt::ControlModifier);
+  QApplication::clipboard()->setText("Look at this:\n" + QApplication::clipboard()->text() + "\nCheers");
+  editor.key(Qt::Key_V, Qt::ControlModifier);
+  EXPECT_EQ(editor.document().nodes.size(), 2u);
+}
+
 TEST(EditorCanvas, KeysOfOneLetterDisableGroupAndArrange) {
   TwoNodes editor;
   editor.key(Qt::Key_D);

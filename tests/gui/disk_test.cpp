@@ -6,11 +6,14 @@
 #include <QElapsedTimer>
 #include <QFile>
 #include <QLabel>
+#include <QMessageBox>
 #include <QPushButton>
+#include <QRadioButton>
 #include <QTimer>
 #include <QToolButton>
 #include <QTreeWidget>
 
+#include "graph/edit.h"
 #include "graph/file/write.h"
 #include "gui/window/relink_dialog.h"
 #include "tests/gui/editor.h"
@@ -22,7 +25,7 @@ namespace {
 const QString graphs = QString::fromStdString(source_folder()) + "/graphs/";
 
 struct OnDisk : Editor {
-  OnDisk() : path(folder.filePath("main.kg.json")) {
+  explicit OnDisk(bool ask = false) : Editor(ask), path(folder.filePath("main.kg.json")) {
     QDir(folder.path()).mkpath("clips");
     EXPECT_TRUE(QFile::copy(graphs + "sneaky_walk.kg.json", path));
     for (const QFileInfo& clip : QDir(graphs + "clips").entryInfoList(QDir::Files))
@@ -36,6 +39,12 @@ struct OnDisk : Editor {
     ASSERT_TRUE(file.open(QIODevice::WriteOnly));
     file.write(text.data(), qint64(text.size()));
   }
+  void set_note(const std::string& note) {
+    session().perform([&](const Document& d, const Registry&) {
+      return kinegraph::set_note(d, d.nodes.begin()->first, note);
+    });
+  }
+  std::string note() { return document().nodes.begin()->second.note; }
   QWidget* notice() { return window.findChild<QWidget*>("notice_bar"); }
   bool answer(const QString& text) {
     for (QPushButton* button : notice()->findChildren<QPushButton*>())
@@ -98,6 +107,147 @@ TEST(EditorOnDisk, AColleaguesChangeIsMergedAsOneStep) {
   editor.canvas().setFocus();
   editor.key(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(editor.session().text(), mine);
+}
+
+TEST(EditorOnDisk, WhereBothSidesChangedTheSameAPersonChoosesAndUndoGivesBackTheirs) {
+  OnDisk editor;
+  editor.set_note("mine");
+  Document theirs = editor.document();
+  theirs.nodes.begin()->second.note = "theirs";
+  editor.rewrite(write_document(theirs, editor.registry));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return editor.notice()->isVisible(); }, 5000));
+  ASSERT_TRUE(editor.answer("Merge it in"));
+  EXPECT_EQ(editor.note(), "mine");
+  editor.when_asked([&](QWidget& dialog) {
+    const auto sides = dialog.findChildren<QRadioButton*>();
+    ASSERT_EQ(sides.size(), 2);
+    EXPECT_EQ(sides[0]->text(), "mine");
+    EXPECT_TRUE(sides[0]->isChecked());
+    QTest::mouseClick(sides[1], Qt::LeftButton, {}, QPoint(10, sides[1]->height() / 2));
+    EXPECT_TRUE(sides[1]->isChecked());
+    QTest::keyClick(&dialog, Qt::Key_Return);
+  });
+  ASSERT_TRUE(editor.answer("Choose…"));
+  EXPECT_EQ(editor.note(), "theirs");
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(editor.note(), "mine");
+}
+
+// Another branch is checked out: the file goes, is there without a byte, and is whole only later.
+TEST(EditorOnDisk, AFileThatIsWrittenAnewByAndByIsOfferedOnceItIsWhole) {
+  OnDisk editor;
+  Document theirs = editor.document();
+  theirs.nodes.begin()->second.note = "theirs";
+  const std::string whole = write_document(theirs, editor.registry);
+  ASSERT_TRUE(QFile::remove(editor.path));
+  QTest::qWait(20);
+  editor.rewrite("");
+  QTest::qWait(180);
+  editor.rewrite(whole.substr(0, whole.size() / 2));
+  QTest::qWait(60);
+  editor.rewrite(whole);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return editor.notice()->isVisible(); }, 5000));
+  QTest::qWait(700);
+  ASSERT_TRUE(editor.answer("Merge it in"));
+  EXPECT_EQ(editor.note(), "theirs");
+}
+
+TEST(EditorOnDisk, WhatIsSaidOfTheFileGoesOnceItIsSettled) {
+  OnDisk editor;
+  const std::string before = editor.session().text();
+  Document theirs = editor.document();
+  theirs.nodes.begin()->second.note = "theirs";
+  editor.rewrite(write_document(theirs, editor.registry));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return editor.notice()->isVisible(); }, 5000));
+  editor.rewrite(before);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !editor.notice()->isVisible(); }, 5000));
+  ASSERT_TRUE(QFile::remove(editor.path));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return editor.notice()->isVisible(); }, 5000));
+  editor.key(Qt::Key_S, Qt::ControlModifier);
+  EXPECT_FALSE(editor.notice()->isVisible());
+  EXPECT_TRUE(QFile::exists(editor.path));
+}
+
+TEST(EditorOnDisk, ANewerFileOfAColleagueIsNotWrittenOver) {
+  OnDisk editor;
+  editor.set_note("mine");
+  const std::string newer = R"({"format": "kinegraph", "schema": 99, "nodes": {}})";
+  editor.rewrite(newer);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return editor.notice()->isVisible(); }, 5000));
+  editor.key(Qt::Key_S, Qt::ControlModifier);
+  QFile file(editor.path);
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  EXPECT_EQ(file.readAll().toStdString(), newer);
+  EXPECT_TRUE(editor.session().is_modified());
+  EXPECT_TRUE(editor.notice()->isVisible());
+}
+
+TEST(EditorOnDisk, WhereNoAutosaveFitsBesideTheGraphItLiesWithTheUser) {
+  {
+    OnDisk editor;
+    ASSERT_TRUE(QDir(editor.folder.path()).mkpath(".main.kg.json.autosave"));  // in its way
+    editor.set_note("mine");
+    QTest::qWait(2600);
+    bool kept = false;
+    const QDir state(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
+    for (const QString& name : state.entryList({"*main.kg.json.autosave"}, QDir::Files | QDir::Hidden)) {
+      QFile file(state.filePath(name));
+      kept |= file.open(QIODevice::ReadOnly) && file.readAll().contains("mine");
+    }
+    EXPECT_TRUE(kept);
+    editor.key(Qt::Key_S, Qt::ControlModifier);
+    EXPECT_TRUE(state.entryList({"*main.kg.json.autosave"}, QDir::Files | QDir::Hidden).isEmpty());
+  }
+}
+
+TEST(EditorOnDisk, AGraphWhoseFolderIsGoneIsSavedElsewhere) {
+  OnDisk editor(true);
+  editor.set_note("mine");
+  QDir(editor.folder.path()).removeRecursively();
+  QTemporaryDir elsewhere;
+  const QString path = elsewhere.filePath("kept.kg.json");
+  editor.when_asked([&](QWidget& question) {
+    auto* box = qobject_cast<QMessageBox*>(&question);
+    ASSERT_TRUE(box);
+    EXPECT_TRUE(box->informativeText().contains("isn't there")) << box->informativeText().toStdString();
+    EXPECT_FALSE(box->informativeText().contains("No such file"));
+    editor.when_asked([&](QWidget& dialog) {
+      auto* name = dialog.findChild<QLineEdit*>("fileNameEdit");
+      ASSERT_TRUE(name);
+      name->setText(path);
+      QTest::keyClick(name, Qt::Key_Return);
+    });
+    QTest::keyClick(&question, Qt::Key_Return);
+  });
+  editor.key(Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(QFile::exists(path));
+  EXPECT_EQ(editor.session().path(), path);
+  EXPECT_FALSE(editor.session().is_modified());
+}
+
+TEST(EditorOnDisk, SeveralUnsavedGraphsAreOneQuestion) {
+  OnDisk editor(true);
+  editor.set_note("mine");
+  ASSERT_TRUE(QFile::copy(graphs + "feet.kg.json", editor.folder.filePath("second.kg.json")));
+  ASSERT_TRUE(editor.window.open(editor.folder.filePath("second.kg.json")));
+  editor.set_note("mine too");
+  int questions = 0;
+  editor.when_asked([&](QWidget& question) {
+    ++questions;
+    auto* box = qobject_cast<QMessageBox*>(&question);
+    ASSERT_TRUE(box);
+    EXPECT_TRUE(box->informativeText().contains("main.kg.json\nsecond.kg.json"));
+    QTest::keyClick(&question, Qt::Key_Return);
+  });
+  editor.window.close();
+  EXPECT_EQ(questions, 1);
+  EXPECT_FALSE(editor.window.isVisible());
+  for (const char* name : {"main.kg.json", "second.kg.json"}) {
+    QFile file(editor.folder.filePath(name));
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    EXPECT_TRUE(file.readAll().contains("\"mine")) << name;
+  }
 }
 
 TEST(EditorOnDisk, AMovedAndRenamedClipIsFoundByItsContent) {
@@ -174,7 +324,8 @@ TEST(EditorOnDisk, ANewerFileIsForReadingOnly) {
   const QString path = editor.folder.filePath("newer.kg.json");
   QFile file(path);
   ASSERT_TRUE(file.open(QIODevice::WriteOnly));
-  file.write(R"({"format": "kinegraph", "schema": 99, "nodes": {"walk": {"type": "Gait", "gait": ["new"]}}})");
+  file.write(
+      R"({"format": "kinegraph", "schema": 99, "nodes": {"walk": {"type": "Gait", "gait": ["new"]}}})");
   file.close();
   ASSERT_TRUE(editor.window.open(path));
   EXPECT_TRUE(editor.session().is_read_only());

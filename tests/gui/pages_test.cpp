@@ -325,6 +325,30 @@ TEST(EditorPages, ReadingManyFilesInsideIsCancelledAndTakenUpAgain) {
       QTest::qWaitFor([&] { return !editor.session().is_reading_inside() && editor.all_read(); }, 60000));
 }
 
+TEST(EditorPages, OfThirtyOpenGraphsTheShownOnesTabIsSeen) {
+  Editor editor;
+  for (int i = 0; i < 30; ++i) {
+    const QString path = editor.folder.filePath(QString("walk_of_day_%1.kg.json").arg(i));
+    ASSERT_TRUE(QFile::copy(graphs + "feet.kg.json", path));
+    ASSERT_TRUE(editor.window.open(path));
+  }
+  auto* tabs = editor.window.findChild<QTabBar*>("pages");
+  ASSERT_EQ(tabs->count(), 30);
+  EXPECT_EQ(editor.window.width(), 1280);
+  editor.canvas().setFocus();
+  for (int i = 0; i < 30; ++i) {
+    Editor::settle();
+    const QRect tab = tabs->tabRect(tabs->currentIndex());
+    EXPECT_TRUE(tabs->rect().contains(tab)) << tabs->currentIndex();
+    EXPECT_GT(tab.width(), tabs->fontMetrics().horizontalAdvance("walk_of_day_1"));
+    editor.key(Qt::Key_PageDown, Qt::ControlModifier);
+  }
+  for (int i = 30; i > 1; --i) {
+    EXPECT_EQ(editor.session().pages(), i);
+    editor.key(Qt::Key_W, Qt::ControlModifier);
+  }
+}
+
 TEST(EditorPages, EachPageKeepsThePinsOfItsViewer) {
   Editor editor;
   editor.window.open(graphs + "style_transfer.kg.json");

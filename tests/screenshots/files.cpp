@@ -3,6 +3,7 @@
 #include <QFileDialog>
 #include <QMenu>
 #include <QMenuBar>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QTabBar>
 #include <filesystem>
@@ -206,7 +207,9 @@ void long_work(const Theme& theme, const QDir& into, const QString& end) {
     shot.text(QByteArray::fromStdString(nodes));
     shot.session().reopen_inside();
     QElapsedTimer clock;
-    for (clock.start(); clock.elapsed() < 300;) QApplication::processEvents(QEventLoop::AllEvents, 20);
+    const auto* bar = shot.window.findChild<QProgressBar*>();
+    for (clock.start(); clock.elapsed() < 10000 && !bar->isVisible();)
+      QApplication::processEvents(QEventLoop::AllEvents, 20);
     shot.take("reading_inside" + end);
     shot.window.action("cancel")->trigger();
     QApplication::processEvents();
