@@ -114,6 +114,7 @@ std::vector<std::string> GraphScene::rebuild(const Document& document, const Reg
     const NodeType* type = known_type(registry, node);
     scene.missing = !type;
     scene.dot = type && type->role == Role::pass;
+    scene.effect = type && type->effect != Effect::none;
     auto entry = document.ui.nodes.find(name);
     const Json* ui = entry == document.ui.nodes.end() ? nullptr : &entry->second;
     if (const Json* color = ui ? ui->find("color") : nullptr; color && color->is_string())

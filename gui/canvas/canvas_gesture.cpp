@@ -1,4 +1,4 @@
-// Moving the view, choosing, moving nodes and cutting wires.
+// Moving the view, choosing, notes' sizes and cutting wires.
 #include "gui/canvas/canvas_gesture.h"
 
 #include <QLineF>
@@ -69,121 +69,6 @@ class BoxSelect : public CanvasGesture {
   std::set<std::string> before_;
 };
 
-class Move : public CanvasGesture {
- public:
-  Move(GraphCanvas& canvas, QPointF view, std::set<std::string> nodes, std::set<std::string> notes,
-       bool take_out)
-      : CanvasGesture(canvas),
-        start_(view),
-        nodes_(std::move(nodes)),
-        notes_(std::move(notes)),
-        take_out_(take_out) {}
-
-  void move(QPointF view) override {
-    if (!moved_ && QLineF(start_, view).length() < 4) return;
-    moved_ = true;
-    const QPointF by = snapped(view);
-    canvas_.scene().shift(nodes_, by - shifted_);
-    shifted_ = by;
-    find_wire();
-    canvas_.update();
-  }
-
-  void release(QPointF) override {
-    if (!moved_) return;
-    const QPointF by = shifted_;
-    const auto wire = wire_;
-    canvas_.rebuild();
-    canvas_.session().perform([&](const Document& document, const Registry& registry) {
-      std::vector<EditStep> steps;
-      if (take_out_ && nodes_.size() == 1)
-        steps.push_back(
-            [&](const Document& d, const Registry& r) { return kinegraph::take_out(d, r, *nodes_.begin()); });
-      std::map<std::string, QPointF> positions;
-      for (const std::string& name : nodes_)
-        if (const SceneNode* node = canvas_.scene().node(name)) positions[name] = node->rect.topLeft() + by;
-      steps.push_back([&](const Document& d, const Registry&) { return move_nodes(d, positions); });
-      for (const SceneNote& note : canvas_.scene().notes())
-        if (notes_.count(note.name))
-          steps.push_back([&](const Document& d, const Registry&) {
-            return place_note(d, note.name, note.rect.translated(by));
-          });
-      std::string title = nodes_.size() == 1
-                              ? "Move " + *nodes_.begin()
-                              : "Move " + std::to_string(nodes_.size() + notes_.size()) + " things";
-      if (wire) {
-        title = "Insert " + *nodes_.begin();
-        steps.push_back([&](const Document& d, const Registry& r) {
-          return insert_on_link(d, r, *nodes_.begin(), wire->to, wire->to_port, wire->index);
-        });
-      }
-      return keeping_places(document, registry, canvas_.scene(), [&](const Document& d, const Registry& r) {
-        return one_after_another(d, r, title, steps);
-      });
-    });
-    canvas_.rebuild();
-  }
-
-  void cancel() override { canvas_.rebuild(); }
-
-  bool follow() override {
-    std::erase_if(nodes_, [&](const auto& name) { return !canvas_.scene().node(name); });
-    wire_.reset();
-    if (moved_) canvas_.scene().shift(nodes_, shifted_);
-    return !nodes_.empty() || !notes_.empty();
-  }
-
-  void paint(QPainter& p) override {
-    if (!wire_) return;
-    p.setRenderHint(QPainter::Antialiasing);
-    p.setPen(QPen(canvas_.theme().accent, 4));
-    QPolygonF line;
-    for (const QPointF& point : wire_->line) line << canvas_.to_view(point);
-    p.drawPolyline(line);
-  }
-  Qt::CursorShape cursor() const override { return moved_ ? Qt::SizeAllCursor : Qt::ArrowCursor; }
-
- private:
-  QPointF snapped(QPointF view) const {
-    const QPointF by = (view - start_) / canvas_.zoom();
-    return {std::round(by.x() / GraphScene::step) * GraphScene::step,
-            std::round(by.y() / GraphScene::step) * GraphScene::step};
-  }
-  // The wire that a single, unlinked node would be put into where it lies now.
-  void find_wire() {
-    wire_.reset();
-    if (nodes_.size() != 1) return;
-    const SceneNode* node = canvas_.scene().node(*nodes_.begin());
-    if (!node || node->missing) return;
-    for (const SceneWire& wire : canvas_.scene().wires())
-      if ((wire.from == node->name || wire.to == node->name) && !take_out_) return;
-    const QRectF inner = node->rect.adjusted(10, 4, -10, -4);
-    for (const SceneWire& wire : canvas_.scene().wires()) {
-      if (wire.from == node->name || wire.to == node->name || !wire.bounds.intersects(inner)) continue;
-      bool crosses = false;
-      for (const QPointF& point : wire.line) crosses |= inner.contains(point);
-      for (qsizetype i = 0; i + 1 < wire.line.size() && !crosses; ++i)
-        crosses =
-            QLineF(wire.line[i], wire.line[i + 1]).intersects(QLineF(inner.topLeft(), inner.bottomRight())) ==
-            QLineF::BoundedIntersection;
-      if (!crosses) continue;
-      Session& session = canvas_.session();
-      try {
-        insert_on_link(session.document(), session.registry(), node->name, wire.to, wire.to_port, wire.index);
-        wire_ = wire;
-        return;
-      } catch (const Failure&) {
-        continue;  // it doesn't fit there
-      }
-    }
-  }
-
-  QPointF start_, shifted_;
-  std::set<std::string> nodes_, notes_;
-  bool take_out_, moved_ = false;
-  std::optional<SceneWire> wire_;
-};
-
 class ResizeNote : public CanvasGesture {
  public:
   ResizeNote(GraphCanvas& canvas, QPointF view, std::string note)
@@ -247,13 +132,16 @@ class Cut : public CanvasGesture {
           cut_.size() == 1 ? "Cut a link" : "Cut " + std::to_string(cut_.size()) + " links", steps);
     });
   }
-  void paint(QPainter& p) override {
+  void paint_below(QPainter& p) override {
     p.setRenderHint(QPainter::Antialiasing);
     for (const SceneWire& wire : canvas_.scene().wires())
       if (cut_.count({wire.to, wire.to_port, wire.index})) {
         p.setPen(QPen(canvas_.theme().error, 3));
         draw(p, wire.line);
       }
+  }
+  void paint(QPainter& p) override {
+    p.setRenderHint(QPainter::Antialiasing);
     p.setPen(QPen(canvas_.theme().error, 1.5, Qt::DashLine));
     draw(p, line_);
   }
@@ -285,10 +173,6 @@ std::unique_ptr<CanvasGesture> pan_gesture(GraphCanvas& canvas, QPointF view) {
 }
 std::unique_ptr<CanvasGesture> box_select_gesture(GraphCanvas& canvas, QPointF view, bool keep) {
   return std::make_unique<BoxSelect>(canvas, view, keep);
-}
-std::unique_ptr<CanvasGesture> move_gesture(GraphCanvas& canvas, QPointF view, std::set<std::string> nodes,
-                                            std::set<std::string> notes, bool take_out) {
-  return std::make_unique<Move>(canvas, view, std::move(nodes), std::move(notes), take_out);
 }
 std::unique_ptr<CanvasGesture> resize_note_gesture(GraphCanvas& canvas, QPointF view,
                                                    const std::string& note) {

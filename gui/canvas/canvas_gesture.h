@@ -25,6 +25,9 @@ class CanvasGesture {
   // to.
   virtual bool follow() { return true; }
   virtual void paint(QPainter&) {}
+  virtual void paint_below(QPainter&) {}  // under the nodes, like wires
+  // Not drawn meanwhile: the gesture takes it away.
+  virtual bool hides(const SceneWire&) const { return false; }
   virtual Qt::CursorShape cursor() const { return Qt::ArrowCursor; }
 
  protected:

@@ -136,29 +136,12 @@ void GraphCanvas::hover(QPointF view) {
     setCursor(space_ ? Qt::OpenHandCursor : hover_ ? Qt::CrossCursor : Qt::ArrowCursor);
     update();
   }
-  QString text;
-  if (hover_)
-    text = port_tip(*hover_);
-  else if (wire)
-    text =
-        QString::fromStdString(wire->from + "." + wire->from_port + " → " + wire->to + "." + wire->to_port) +
-        tr(" · Ctrl+click puts a dot, Ctrl+drag cuts");
-  emit hovered_text(text);
+  emit hovered_text(hover_ ? port_words(*hover_) : wire ? wire_words(*wire) : QString());
 }
 
 bool GraphCanvas::is_hovered(const SceneWire& wire) const {
   return hover_wire_ && !gesture_ && wire.to == hover_wire_->node && wire.to_port == hover_wire_->port &&
          wire.index == hover_index_;
-}
-
-QString GraphCanvas::port_tip(const PortAt& at) const {
-  const SceneNode* node = scene_.node(at.node);
-  const ScenePort* port = node ? node->port(at.input, at.port) : nullptr;
-  QString text = QString::fromStdString(at.node + "." + at.port);
-  if (port && !port->type.empty()) text += " · " + QString::fromStdString(port->type);
-  if (port && port->optional) text += tr(" · may stay open");
-  if (port && !port->help.isEmpty()) text += " · " + port->help;
-  return text;
 }
 
 void GraphCanvas::put_dot(const SceneWire& wire, QPointF at) {
@@ -333,39 +316,6 @@ void GraphCanvas::dropEvent(QDropEvent* event) {
     at += QPointF(0, 140);
   }
   event->acceptProposedAction();
-}
-
-QString GraphCanvas::node_tip(const SceneNode& node) const {
-  const auto found = session_.document().nodes.find(node.name);
-  const NodeType* type =
-      found == session_.document().nodes.end() ? nullptr : known_type(session_.registry(), found->second);
-  QString tip = "<b>" + QString::fromStdString(node.name).toHtmlEscaped() + "</b> · " +
-                QString::fromStdString(node.type).toHtmlEscaped();
-  if (type) tip += "<br>" + QString::fromStdString(type->help).toHtmlEscaped();
-  if (!node.note.isEmpty()) tip += "<br><i>" + node.note.toHtmlEscaped() + "</i>";
-  const auto say = [&](const Diagnostic& d) {
-    tip += "<br>• " + QString::fromStdString(d.message).toHtmlEscaped();
-    if (!d.hint.empty()) tip += " – " + QString::fromStdString(d.hint).toHtmlEscaped();
-  };
-  for (const Diagnostic& d : session_.problems())
-    if (d.node == node.name) say(d);
-  if (const NodeStatus* status = evaluation_.status(node.name)) {
-    tip += "<br>" + shown_state(status->state);
-    if (status->state == NodeStatus::State::done) {
-      tip += " · " + shown_seconds(status->seconds);
-      if (status->cached == "memory" || status->cached == "disk") tip += tr(" · from the cache");
-    }
-    for (const Diagnostic& d : status->diagnostics) say(d);
-  }
-  return tip;
-}
-
-QString GraphCanvas::tool_tip(QPointF view) const {
-  if (gesture_) return {};
-  const QPointF at = to_graph(view);
-  if (const auto port = scene_.port_at(at, port_reach / std::max(zoom_, 0.4))) return port_tip(*port);
-  if (const SceneNode* node = scene_.node_at(at)) return node_tip(*node);
-  return {};
 }
 
 bool GraphCanvas::event(QEvent* event) {

@@ -1,5 +1,6 @@
 // Drawing the canvas: pictures of nodes and polylines; smooth lines once the view rests.
 #include <QPainterPath>
+#include <QTextLayout>
 #include <cmath>
 
 #include "gui/canvas/graph_canvas.h"
@@ -16,6 +17,30 @@ QFont ui_font(double pixels, bool bold = false) {
   return font;
 }
 
+// Wrapped into the box; what has no room there ends in an ellipsis.
+void draw_wrapped(QPainter& p, const QRectF& box, const QString& text) {
+  const double high = p.fontMetrics().lineSpacing();
+  double y = box.top();
+  for (const QString& paragraph : text.split('\n')) {
+    QTextLayout layout(paragraph, p.font());
+    layout.beginLayout();
+    for (QTextLine line = layout.createLine(); line.isValid(); line = layout.createLine()) {
+      line.setLineWidth(box.width());
+      if (y + high > box.bottom() + 1) return;
+      const bool last = y + 2 * high > box.bottom() + 1;
+      const QString rest = last ? text.mid(text.indexOf(paragraph)).mid(line.textStart()) : QString();
+      p.drawText(
+          QPointF(box.left(), y + p.fontMetrics().ascent()),
+          last && rest.size() > line.textLength()
+              ? p.fontMetrics().elidedText(QString(rest).replace('\n', ' '), Qt::ElideRight, int(box.width()))
+              : paragraph.mid(line.textStart(), line.textLength()));
+      y += high;
+    }
+    layout.endLayout();
+    if (paragraph.isEmpty()) y += high;
+  }
+}
+
 }  // namespace
 
 void GraphCanvas::paintEvent(QPaintEvent*) {
@@ -26,6 +51,8 @@ void GraphCanvas::paintEvent(QPaintEvent*) {
   p.setRenderHint(QPainter::Antialiasing, resting_);
   paint_frames(p);
   paint_wires(p, seen);
+  if (gesture_) gesture_->paint_below(p);
+  p.setRenderHint(QPainter::Antialiasing, resting_);
   paint_nodes(p, seen);
   if (gesture_) gesture_->paint(p);
   p.setRenderHint(QPainter::Antialiasing, true);
@@ -67,7 +94,8 @@ void GraphCanvas::paint_frames(QPainter& p) {
     p.setFont(ui_font(lettering, true));
     p.setPen(theme_->text);
     p.drawText(QRectF(box.left() + 10, box.top(), box.width() - 20, std::max(34 * zoom_, lettering + 8)),
-               Qt::AlignVCenter | Qt::TextSingleLine, frame.title);
+               Qt::AlignVCenter | Qt::TextSingleLine,
+               QFontMetricsF(p.font()).elidedText(frame.title, Qt::ElideRight, box.width() - 20));
   }
   for (const SceneNote& note : scene_.notes()) {
     const QRectF box(to_view(note.rect.topLeft()), to_view(note.rect.bottomRight()));
@@ -81,11 +109,8 @@ void GraphCanvas::paint_frames(QPainter& p) {
     if (zoom_ < 0.3) continue;
     p.setFont(ui_font(std::max(9.0, 12 * zoom_)));
     p.setPen(theme_->text);
-    p.save();
-    p.setClipRect(box);
-    p.drawText(box.adjusted(8 * zoom_, 6 * zoom_, -8 * zoom_, -6 * zoom_), Qt::TextWordWrap,
-               note.text.isEmpty() ? tr("(empty note: double-click to write)") : note.text);
-    p.restore();
+    draw_wrapped(p, box.adjusted(8 * zoom_, 6 * zoom_, -8 * zoom_, -6 * zoom_),
+                 note.text.isEmpty() ? tr("(empty note: double-click to write)") : note.text);
     if (chosen) {
       p.setPen(QPen(theme_->accent, 1.5));
       p.drawLine(box.bottomRight() - QPointF(10, 2), box.bottomRight() - QPointF(2, 10));
@@ -98,7 +123,7 @@ void GraphCanvas::paint_wires(QPainter& p, const QRectF& seen) {
   const double width = std::clamp(2.2 * zoom_, 1.0, 3.0);
   QPolygonF line;
   for (const SceneWire& wire : scene_.wires()) {
-    if (!wire.bounds.intersects(seen)) continue;
+    if (!wire.bounds.intersects(seen) || (gesture_ && gesture_->hides(wire))) continue;
     QColor color = wire.type.empty() ? theme_->wire : theme_->port(wire.type);
     const SceneNode* to = scene_.node(wire.to);
     const bool chosen = session_.selected().count(wire.from) || session_.selected().count(wire.to);

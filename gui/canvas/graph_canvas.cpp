@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gui/canvas/canvas_accessible.h"
+#include "gui/document/problem_text.h"
 
 namespace kinegraph {
 namespace {
@@ -92,8 +93,7 @@ void GraphCanvas::find_problems() {
   problems_.clear();
   for (const Diagnostic& problem : session_.problems()) {
     if (problem.node.empty() || problem.severity == Severity::info) continue;
-    // A node that waits for its links is no failure: every node begins so.
-    const Severity severity = problem.code == "open-input" ? Severity::warning : problem.severity;
+    const Severity severity = shown_severity(problem);
     Severity& worst = problems_.emplace(problem.node, severity).first->second;
     worst = std::max(worst, severity);
   }

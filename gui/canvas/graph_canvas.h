@@ -129,7 +129,10 @@ class GraphCanvas : public QWidget {
   void put_dot(const SceneWire& wire, QPointF at);
   void fill_menu_of_node(QMenu& menu, const SceneNode& node);
   QString tool_tip(QPointF view) const;
+  QString port_words(const PortAt& port) const;
+  QString wire_words(const SceneWire& wire) const;
   QString port_tip(const PortAt& port) const;
+  QString wire_tip(const SceneWire& wire) const;
   QString node_tip(const SceneNode& node) const;
   void press_left(QMouseEvent* event, QPointF at);
 

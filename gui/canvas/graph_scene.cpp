@@ -17,7 +17,7 @@ bool SceneNode::looks_like(const SceneNode& other) const {
   const auto looks = [](const SceneNode& node) {
     return std::tie(node.name, node.type, node.category, node.inputs, node.outputs, node.values,
                     node.hidden_ports, node.expandable, node.expanded, node.still, node.more, node.enabled,
-                    node.missing, node.dot, node.note, node.color);
+                    node.missing, node.dot, node.effect, node.note, node.color);
   };
   return rect.size() == other.rect.size() && looks(*this) == looks(other);
 }

@@ -4,6 +4,7 @@
 #include <QPolygonF>
 #include <QRectF>
 #include <QString>
+#include <compare>
 #include <map>
 #include <optional>
 #include <set>
@@ -40,6 +41,7 @@ struct SceneNode {
   QRectF still;  // where a motion's still is drawn, relative to the node; null: it has none
   QRectF more;   // the row that shows and hides them, relative to the node
   bool enabled = true, missing = false, dot = false;
+  bool effect = false;  // writes or checks: computed by Run alone
   QString note, color;
 
   const ScenePort* port(bool input, std::string_view port_name) const;
@@ -72,7 +74,7 @@ struct SceneNote {
 struct PortAt {  // a port found under the pointer
   std::string node, port;
   bool input = false;
-  bool operator==(const PortAt&) const = default;
+  auto operator<=>(const PortAt&) const = default;
 };
 
 class GraphScene {

@@ -46,7 +46,7 @@ QColor family_color(const Theme& theme, const SceneNode& node) {
     const QColor own(node.color);
     if (own.isValid()) return own;
   }
-  if (node.missing) return theme.missing;
+  if (node.missing) return theme.wire;
   static const std::map<std::string, const char*> types{
       {"files", "Metrics"}, {"motion", "Motion"},         {"time", "Warp"},         {"style", "Stats"},
       {"feet", "Contacts"}, {"components", "Components"}, {"cartoon", "Character"}, {"judge", "Points"}};
@@ -63,6 +63,14 @@ void draw_badge(QPainter& p, QPointF centre, const QColor& color, const QColor& 
   p.setPen(ink);
   p.setFont(font_of(11, true));
   p.drawText(QRectF(centre - QPointF(7, 7.5), QSizeF(14, 14)), Qt::AlignCenter, sign);
+}
+
+// A sheet with lines: somebody wrote a note on this node.
+void draw_note_mark(QPainter& p, QPointF at, const QColor& color) {
+  p.setPen(QPen(color, 1));
+  p.setBrush(Qt::NoBrush);
+  p.drawRoundedRect(QRectF(at + QPointF(0.5, 0.5), QSizeF(9, 10)), 1.5, 1.5);
+  for (const double y : {3.5, 5.5, 7.5}) p.drawLine(at + QPointF(2.5, y), at + QPointF(y > 7 ? 5.5 : 7.5, y));
 }
 
 void draw_dot(QPainter& p, const SceneNode& node, const Theme& theme) {
@@ -130,7 +138,7 @@ QString shown_state(NodeStatus::State state) {
   using State = NodeStatus::State;
   switch (state) {
     case State::idle:
-      return QObject::tr("not asked for");
+      return QObject::tr("not computed yet");
     case State::waiting:
       return QObject::tr("waiting");
     case State::running:
@@ -146,9 +154,9 @@ QString shown_state(NodeStatus::State state) {
     case State::disabled:
       return QObject::tr("disabled");
     case State::missing:
-      return QObject::tr("missing");
+      return QObject::tr("unknown type");
     case State::incomplete:
-      return QObject::tr("incomplete");
+      return QObject::tr("not linked yet");
   }
   return {};
 }
@@ -165,9 +173,8 @@ QColor state_color(const Theme& theme, NodeStatus::State state) {
       return theme.error;
     case State::blocked:
     case State::incomplete:
-      return theme.warning;
     case State::missing:
-      return theme.missing;
+      return theme.warning;
     default:
       return theme.faint_text;
   }
@@ -176,7 +183,7 @@ QColor state_color(const Theme& theme, NodeStatus::State state) {
 namespace {
 
 // What stands where a motion's still will be.
-QString instead_of_still(NodeStatus::State state) {
+QString instead_of_still(NodeStatus::State state, const NodeStatus* status) {
   using State = NodeStatus::State;
   switch (state) {
     case State::idle:
@@ -188,7 +195,9 @@ QString instead_of_still(NodeStatus::State state) {
     case State::cancelled:
       return QObject::tr("stopped before it was done");
     case State::blocked:
-      return QObject::tr("waits for what is before it");
+      return status && !status->blocked_by.empty()
+                 ? QObject::tr("waits for %1").arg(QString::fromStdString(status->blocked_by))
+                 : QObject::tr("waits for what is before it");
     case State::incomplete:
       return QObject::tr("link what it needs");
     case State::failed:
@@ -223,8 +232,10 @@ void draw_still(QPainter& p, const QRectF& box, const Still* still, const QStrin
   const double across = box.width() / (still->figures + 0.1);
   const double scale = std::min(room / still->height, room);
   const double floor = box.bottom() - 4;
-  p.setPen(QPen(theme.line, 1));
-  p.drawLine(QPointF(box.left() + 4, floor + 0.5), QPointF(box.right() - 4, floor + 0.5));
+  const double pixel = 1 / (p.transform().m11() * p.device()->devicePixelRatioF());
+  p.fillRect(QRectF(box.left() + 4, std::round(floor / pixel) * pixel, box.width() - 8,
+                    std::max(1.0, std::round(1 / pixel)) * pixel),
+             theme.line);
   for (const auto side : {Still::Side::right, Still::Side::middle, Still::Side::left}) {
     QColor color = side == Still::Side::left    ? theme.left
                    : side == Still::Side::right ? theme.right
@@ -248,6 +259,38 @@ QString what_it_needs(const NodeStatus& status) {
   for (const Diagnostic& open : status.diagnostics)
     if (!open.port.empty()) ports << QString::fromStdString(open.port);
   return ports.isEmpty() ? QObject::tr("needs an input") : QObject::tr("needs %1").arg(ports.join(", "));
+}
+
+// What stands beside the type: the first of these that has room there, else the last.
+QStringList beside_type(const SceneNode& node, NodeStatus::State state, const NodeStatus* status) {
+  using State = NodeStatus::State;
+  switch (state) {
+    case State::idle:
+      if (node.effect) return {QObject::tr("not run yet"), QObject::tr("not run")};
+      // A motion's still says so.
+      return node.still.isNull() ? QStringList{shown_state(state), QObject::tr("not computed")}
+                                 : QStringList();
+    case State::done: {
+      if (status->seconds <= 0 && status->cached.empty()) return {};
+      const bool cached = status->cached == "memory" || status->cached == "disk";
+      if (!cached) return {shown_seconds(status->seconds)};
+      const QString from_cache = QObject::tr("cached");
+      if (status->seconds < 0.0005) return {from_cache};
+      return {shown_seconds(status->seconds) + " · " + from_cache, from_cache};
+    }
+    case State::failed:
+      return status && status->broken_rules > 0 ? QStringList{QObject::tr("check failed"), shown_state(state)}
+                                                : QStringList{shown_state(state)};
+    case State::blocked:
+      return status->blocked_by.empty()
+                 ? QStringList{shown_state(state)}
+                 : QStringList{QObject::tr("blocked by %1").arg(QString::fromStdString(status->blocked_by)),
+                               shown_state(state)};
+    case State::incomplete:
+      return {what_it_needs(*status)};
+    default:
+      return {shown_state(state)};
+  }
 }
 
 bool has_warning(const NodeStatus* status, std::optional<Severity> problem) {
@@ -337,7 +380,13 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
                       : !node.enabled ? State::disabled
                       : status        ? status->state
                                       : State::idle;
-  const QRectF box(QPointF(0.5, 0.5), node.rect.size() - QSizeF(1, 1));
+  // Edges and separators lie on whole pixels of the screen at any zoom, so that they stay sharp.
+  const double pixel = 1 / (zoom * p.device()->devicePixelRatioF());
+  const auto whole = [pixel](double length) { return std::round(length / pixel) * pixel; };
+  const bool bad = state == State::failed || problem == Severity::error;
+  const double edge_width = std::max(pixel, whole(bad ? 1.6 : 1.2));
+  const QRectF box(edge_width / 2, edge_width / 2, whole(node.rect.width()) - edge_width,
+                   whole(node.rect.height()) - edge_width);
   const QColor family = family_color(theme, node);
   const bool small = zoom < 0.6;
 
@@ -359,12 +408,11 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
   if (small) {
     p.fillRect(box, title);
   } else {
-    p.fillRect(QRectF(0, 0, box.width() + 1, 40), title);
+    p.fillRect(QRectF(0, 0, box.width() + edge_width, whole(40)), title);
   }
-  p.fillRect(QRectF(0, 0, box.width() + 1, small ? 3 / zoom : 3), family);
+  p.fillRect(QRectF(0, 0, box.width() + edge_width, whole(small ? 3 / zoom : 3)), family);
   p.restore();
-  const bool bad = state == State::failed || problem == Severity::error;
-  QPen edge(bad ? theme.error : state == State::missing ? theme.missing : theme.node_line, bad ? 1.6 : 1.2);
+  QPen edge(bad ? theme.error : state == State::missing ? theme.warning : theme.node_line, edge_width);
   if (state == State::missing || !node.enabled) edge.setStyle(Qt::DashLine);
   p.setPen(edge);
   p.setBrush(Qt::NoBrush);
@@ -377,23 +425,22 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
   } else {
     p.setFont(font_of(13, true));
     p.setPen(ink);
-    draw_text(p, QRectF(12, 5, box.width() - 40, 18), Qt::AlignLeft, name);
+    draw_text(p, QRectF(12, 5, box.width() - (node.note.isEmpty() ? 40 : 58), 18), Qt::AlignLeft, name);
+    if (!node.note.isEmpty()) draw_note_mark(p, QPointF(box.width() - 38, 9), theme.faint_text);
     p.setFont(font_of(11));
     p.setPen(theme.faint_text);
-    QString right;
-    const bool timed = status && (status->seconds > 0 || !status->cached.empty());
-    if (state == State::done && timed)
-      right = status->cached == "memory" || status->cached == "disk"
-                  ? (status->seconds >= 0.0005 ? shown_seconds(status->seconds) + " · " : QString()) +
-                        QObject::tr("cached")
-                  : shown_seconds(status->seconds);
-    else if (state == State::incomplete)
-      right = what_it_needs(*status);
-    else if (state != State::idle && state != State::done)
-      right = shown_state(state);
-    const double right_width = right.isEmpty() ? 0 : QFontMetricsF(p.font()).horizontalAdvance(right) + 4;
-    draw_text(p, QRectF(12, 21, box.width() - 28 - right_width, 16), Qt::AlignLeft,
-              QString::fromStdString(node.type));
+    const QFontMetricsF metrics(p.font());
+    const QString type = QString::fromStdString(node.type);
+    const double line = box.width() - 24, room = line - metrics.horizontalAdvance(type) - 8;
+    const QStringList said = beside_type(node, state, status);
+    QString right = said.isEmpty() ? QString() : said.back();
+    for (const QString& words : said)
+      if (metrics.horizontalAdvance(words) <= room) {
+        right = words;
+        break;
+      }
+    const double right_width = right.isEmpty() ? 0 : metrics.horizontalAdvance(right) + 1;
+    draw_text(p, QRectF(12, 21, right.isEmpty() ? line : line - right_width - 7, 16), Qt::AlignLeft, type);
     if (!right.isEmpty()) {
       if (state == State::failed || state == State::blocked || state == State::missing ||
           state == State::incomplete)
@@ -403,7 +450,7 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
     const QPointF badge(box.width() - 16, 14);
     if (bad)
       draw_badge(p, badge, theme.error, theme.node, "!");
-    else if (has_warning(status, problem) || state == State::incomplete)
+    else if (has_warning(status, problem) || state == State::incomplete || state == State::missing)
       draw_badge(p, badge, theme.warning, theme.node, "!");
     else if (state != State::idle)
       draw_state(p, badge, 4, state_color(theme, state), state);
@@ -418,7 +465,8 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
                   QString::fromStdString(port.name) + (port.list ? " …" : ""));
       }
     if (!node.still.isNull())
-      draw_still(p, node.still, status ? status->still.get() : nullptr, instead_of_still(state), theme);
+      draw_still(p, node.still, status ? status->still.get() : nullptr, instead_of_still(state, status),
+                 theme);
     if (node.expandable) {
       p.setPen(theme.faint_text);
       p.setFont(font_of(11));
@@ -428,8 +476,7 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
     }
     if (!node.values.empty()) {
       double y = box.height() - 5 - 17.0 * double(node.values.size());
-      p.setPen(QPen(theme.line, 1));
-      p.drawLine(QPointF(8, y - 3), QPointF(box.width() - 8, y - 3));
+      p.fillRect(QRectF(8, whole(y - 3), box.width() - 16, std::max(pixel, whole(1))), theme.line);
       p.setFont(font_of(11));
       for (const SceneValue& value : node.values) {
         const double name_width = std::min(QFontMetricsF(p.font()).horizontalAdvance(value.name) + 8, 84.0);

@@ -24,10 +24,12 @@ void NodePixmaps::begin(double zoom, double device_ratio, double budget_ms) {
 void NodePixmaps::draw(QPainter& painter, QPointF at, const SceneNode& node, const NodeStatus* status,
                        std::optional<Severity> problem, const Theme& theme) {
   Picture& picture = pictures_[node.name];
-  const double around = margin * zoom_;
+  // On whole pixels, so that text and edges stay sharp.
+  const auto whole = [this](double x) { return std::round(x * ratio_) / ratio_; };
+  const double around = whole(margin * zoom_);
   const bool wanted = !picture.fresh || picture.zoom != zoom_;
   if (wanted && (picture.pixmap.isNull() || double(clock_.nsecsElapsed()) < budget_ms_ * 1e6)) {
-    const QSizeF size = (node.rect.size() + QSizeF(2 * margin, 2 * margin)) * zoom_;
+    const QSizeF size = node.rect.size() * zoom_ + QSizeF(2 * around, 2 * around);
     picture.pixmap =
         QPixmap(QSize(int(std::ceil(size.width() * ratio_)), int(std::ceil(size.height() * ratio_))));
     picture.pixmap.setDevicePixelRatio(ratio_);
@@ -39,10 +41,8 @@ void NodePixmaps::draw(QPainter& painter, QPointF at, const SceneNode& node, con
     picture.zoom = zoom_;
     picture.fresh = true;
   }
-  // On whole pixels, so that text stays sharp.
-  const auto whole = [this](double x) { return std::round(x * ratio_) / ratio_; };
   if (picture.zoom == zoom_) {
-    painter.drawPixmap(QPointF(whole(at.x() - around), whole(at.y() - around)), picture.pixmap);
+    painter.drawPixmap(QPointF(whole(at.x()) - around, whole(at.y()) - around), picture.pixmap);
     if (!picture.fresh) ran_out_ = true;
     return;
   }

@@ -36,6 +36,11 @@ QString with_quotes(const QString& text) {
   return quoted + text.mid(from);
 }
 
+Severity shown_severity(const Diagnostic& problem) {
+  const bool waits = problem.code == "open-input" || problem.code == "blocked";
+  return waits && problem.severity == Severity::error ? Severity::warning : problem.severity;
+}
+
 QString problem_text(const Diagnostic& problem) {
   QString text = with_quotes(QString::fromStdString(problem.message));
   if (!problem.joint.empty()) text += QObject::tr(", joint %1").arg(QString::fromStdString(problem.joint));

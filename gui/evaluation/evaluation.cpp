@@ -10,7 +10,10 @@
 #include <utility>
 
 #include "graph/nested.h"
+#include "graph/validate.h"
+#include "gui/evaluation/blocked_part.h"
 #include "gui/evaluation/described.h"
+#include "gui/evaluation/evaluation_run.h"
 #include "gui/evaluation/sound_part.h"
 #include "gui/evaluation/sum_up.h"
 
@@ -22,18 +25,6 @@ constexpr double longest_look = 0.02, latest_look = 0.2;  // seconds
 constexpr std::size_t most_nodes_looked_at = 200;
 constexpr int sum_up_after_ms = 30;
 constexpr std::size_t memory_for_values = std::size_t(1) << 30;
-
-NodeStatus::State state_named(std::string_view name) {
-  using State = NodeStatus::State;
-  if (name == "running") return State::running;
-  if (name == "done") return State::done;
-  if (name == "failed") return State::failed;
-  if (name == "blocked") return State::blocked;
-  if (name == "cancelled") return State::cancelled;
-  if (name == "disabled") return State::disabled;
-  if (name == "missing") return State::missing;
-  return State::waiting;
-}
 
 // So that the window's thread always comes first: on Linux a nice value belongs to a thread.
 void lower_priority_of_this_thread() {
@@ -47,35 +38,6 @@ double seconds_of(clockid_t clock) {
 }
 
 }  // namespace
-
-struct Evaluation::Result {
-  RunLog log;
-  Diagnostics problems;
-  std::map<std::string, ValuePtr> values;
-  std::map<std::string, std::shared_ptr<const Still>> stills;
-  std::map<std::string, Diagnostics> left_out;  // nodes with problems that keep them from running
-  std::vector<std::string> outdated;            // failed before, changed since, and not run now
-  bool effects = false;
-  std::uint64_t generation = 0, graph = 0;
-};
-
-// A request on its way.
-struct Evaluation::Run {
-  EvaluationRequest request;
-  Document whole;  // before nodes with problems are set aside
-  Plan plan;
-  std::vector<Target> targets;
-  std::shared_ptr<Result> result = std::make_shared<Result>();
-  StopToken stop;
-  std::thread thread;
-  std::set<std::string> joins;  // nodes that an older run is at
-
-  // With the lock held:
-  std::uint64_t generation = 0;      // for which it speaks
-  bool aside = false;                // a newer run took its place
-  std::set<std::string> speaks_for;  // then: nodes of the newer one that it is at
-  bool over = false;
-};
 
 Evaluation::Evaluation(const Registry& registry, std::string cache_folder, QObject* parent)
     : QObject(parent),
@@ -133,6 +95,7 @@ void Evaluation::forget() {
   }
   evaluator_.wake();
   unsummed_.clear();
+  stands_as_.clear();
   statuses_.clear();
   values_.clear();
   log_ = {};
@@ -327,7 +290,9 @@ void Evaluation::finish(Run& run) {
   std::erase_if(result.log.nodes, [](const auto& entry) { return entry.second.state == NodeState::skipped; });
   deliver(run.result);
   deliver_stills(run, done);
-  if (!run.request.effects && !run.stop.stopped()) look_around(run);
+  if (run.stop.stopped()) return;
+  tell_of_unasked(run);
+  if (!run.request.effects) look_around(run, {done.begin(), done.end()});
 }
 
 bool Evaluation::gives_way(const Run& run) const {
@@ -361,18 +326,63 @@ void Evaluation::deliver_stills(const Run& run, const std::vector<std::string>& 
 
 // What failed, was mended and isn't looked at any more must not stand there as failed.
 void Evaluation::find_outdated(const Document& document, Result& result) {
-  std::erase_if(failed_as_, [&](const auto& entry) {
-    if (described(document, entry.first) == entry.second) return false;
-    result.outdated.push_back(entry.first);
-    return true;
-  });
-  for (const auto& [name, run] : result.log.nodes)
+  for (auto* known : {&failed_as_, &ran_as_})
+    std::erase_if(*known, [&](const auto& entry) {
+      if (described(document, entry.first) == entry.second) return false;
+      result.outdated.push_back(entry.first);
+      return true;
+    });
+  for (const auto& [name, run] : result.log.nodes) {
     if (run.state == NodeState::failed || run.state == NodeState::blocked)
       failed_as_[name] = described(document, name);
+    else if (run.state == NodeState::done && result.effects && run.outputs.empty())
+      ran_as_[name] = described(document, name);
+  }
   for (const auto& [name, diagnostics] : result.left_out) failed_as_[name] = described(document, name);
 }
 
-void Evaluation::look_around(Run& run) try {
+// Files that are missing are known without reading them, and what is blocked follows from that.
+void Evaluation::tell_of_unasked(const Run& run) {
+  if (gives_way(run)) return;
+  auto told = std::make_shared<Unasked>();
+  const EvaluationRequest& request = run.request;
+  for (Diagnostic& problem :
+       validate(run.whole, registry_, {.file = request.file, .folder = request.folder, .check_files = true}))
+    if (problem.code == "missing-file" && problem.severity == Severity::error &&
+        request.document.nodes.count(problem.node) && !request.document.nodes.at(problem.node).missing)
+      told->lost[problem.node].push_back(std::move(problem));
+  for (const std::string& name : lost_)
+    if (!told->lost.count(name)) {
+      failed_as_.erase(name);
+      told->found.push_back(name);
+    }
+  lost_.clear();
+  std::set<std::string> failed;
+  for (const auto& [name, as] : failed_as_) failed.insert(name);
+  for (const auto& [name, problems] : told->lost) {
+    failed.insert(name);
+    lost_.insert(name);
+  }
+  told->blocked = blocked_part(run.plan, failed);
+  for (const auto& [name, ports] : run.plan.passed) {
+    const auto node = request.document.nodes.find(name);
+    if (node == request.document.nodes.end() || node->second.nested || !node->second.enabled) continue;
+    for (const auto& [port, source] : ports)
+      if (source.node >= 0) told->stands_as.emplace(name, run.plan.nodes[std::size_t(source.node)].name);
+  }
+  QMetaObject::invokeMethod(
+      this,
+      [this, told, generation = run.result->generation] {
+        {
+          std::lock_guard lock(mutex_);
+          if (generation != generation_) return;
+        }
+        take_unasked(*told);
+      },
+      Qt::QueuedConnection);
+}
+
+void Evaluation::look_around(Run& run, const std::set<std::string>& done) try {
   const EvaluationRequest& request = run.request;
   const Plan& plan = run.plan;
   if (request.document.nodes.size() > most_nodes_looked_at) return;
@@ -390,9 +400,16 @@ void Evaluation::look_around(Run& run) try {
   std::vector<Target> cached;
   for (const std::string& name : names) {
     check();
-    const OutputPort& first = plan.nodes[std::size_t(plan.by_name.at(name))].type->outputs.front();
+    const std::vector<OutputPort>& outputs = plan.nodes[std::size_t(plan.by_name.at(name))].type->outputs;
+    const OutputPort& first = outputs.front();
     const std::string where = known.cached(name, first.name);
-    if (where == "no") continue;
+    if (where == "no") {
+      if (!done.count(name) && std::all_of(outputs.begin() + 1, outputs.end(), [&](const OutputPort& port) {
+            return known.cached(name, port.name) == "no";
+          }))
+        seen->outdated.push_back(name);
+      continue;
+    }
     NodeRun& found = seen->log.nodes[name];
     found.state = NodeState::done;
     found.outputs[first.name] = {.cached = where, .computed = true};
@@ -410,6 +427,12 @@ void Evaluation::look_around(Run& run) try {
           std::lock_guard lock(mutex_);
           if (seen->graph != graph_ || seen->generation != generation_) return;
         }
+        for (const std::string& name : seen->outdated) {
+          const auto was = statuses_.find(name);
+          if (was == statuses_.end() || was->second.state != NodeStatus::State::done) continue;
+          was->second = {};
+          emit status_changed(QString::fromStdString(name));
+        }
         for (const auto& [name, found] : seen->log.nodes) {
           NodeStatus& status = statuses_[name];
           if (status.state == NodeStatus::State::done && !status.cached.empty()) continue;
@@ -426,158 +449,6 @@ void Evaluation::look_around(Run& run) try {
       Qt::QueuedConnection);
 } catch (const Cancelled&) {
   // What comes next looks around itself.
-}
-
-void Evaluation::take_stills(const std::map<std::string, std::shared_ptr<const Still>>& stills) {
-  for (const auto& [name, still] : stills) {
-    NodeStatus& status = statuses_[name];
-    if (status.still == still) continue;
-    status.still = still;
-    emit status_changed(QString::fromStdString(name));
-  }
-}
-
-void Evaluation::sum_up_graph_nodes() {
-  std::vector<std::string> graphs;
-  for (const auto& [name, status] : statuses_) {
-    const std::size_t slash = name.find('/');
-    if (slash == std::string::npos) continue;
-    if (graphs.empty() || name.compare(0, slash, graphs.back()) != 0) graphs.push_back(name.substr(0, slash));
-  }
-  for (const std::string& graph : graphs) {
-    sum_up(statuses_, graph);
-    emit status_changed(QString::fromStdString(graph));
-  }
-}
-
-// Each of thousands of inner nodes tells of itself, and a sum goes through all of them.
-void Evaluation::sum_up_soon(const std::string& inner) {
-  const std::size_t slash = inner.find('/');
-  if (slash == std::string::npos) return;
-  unsummed_.insert(inner.substr(0, slash));
-  if (!summing_.isActive()) summing_.start();
-}
-
-void Evaluation::deliver_status(const Run& run, const std::string& node, NodeStatus status) {
-  std::uint64_t generation = 0;
-  {
-    std::lock_guard lock(mutex_);
-    // That it was stopped is no news of the node: a newer run asks for it.
-    if (run.aside && (!run.speaks_for.contains(node) || status.state == NodeStatus::State::cancelled)) return;
-    generation = run.generation;
-  }
-  QMetaObject::invokeMethod(
-      this,
-      [this, node, status = std::move(status), generation]() mutable {
-        {
-          std::lock_guard lock(mutex_);
-          if (generation != generation_) return;
-        }
-        NodeStatus& known = statuses_[node];
-        if (status.state != NodeStatus::State::running) {
-          status.seconds = known.seconds;
-          status.cached = known.cached;
-        }
-        status.diagnostics = known.diagnostics;
-        status.still = known.still;
-        known = std::move(status);
-        emit status_changed(QString::fromStdString(node));
-        sum_up_soon(node);
-      },
-      Qt::QueuedConnection);
-}
-
-void Evaluation::deliver_waiting(const Run& run, std::vector<std::string> nodes) {
-  QMetaObject::invokeMethod(
-      this,
-      [this, nodes = std::set<std::string>(nodes.begin(), nodes.end()), joins = run.joins,
-       generation = run.result->generation] {
-        {
-          std::lock_guard lock(mutex_);
-          if (generation != generation_) return;
-        }
-        using State = NodeStatus::State;
-        for (auto& [node, status] : statuses_) {
-          const bool goes_on = status.state == State::running && joins.contains(node);
-          const bool was_due = status.state == State::running || status.state == State::waiting;
-          if (nodes.contains(node) || goes_on || !was_due) continue;
-          status.state = State::idle;  // for an older run it was
-          emit status_changed(QString::fromStdString(node));
-        }
-        for (const std::string& node : nodes) {
-          NodeStatus& status = statuses_[node];
-          if (status.state == State::running && joins.contains(node)) continue;
-          status.state = State::waiting;
-          status.progress = 0;
-          emit status_changed(QString::fromStdString(node));
-        }
-        sum_up_graph_nodes();
-      },
-      Qt::QueuedConnection);
-}
-
-void Evaluation::deliver(std::shared_ptr<Result> result) {
-  QMetaObject::invokeMethod(
-      this,
-      [this, result] {
-        bool newest = false;
-        {
-          std::lock_guard lock(mutex_);
-          if (result->graph != graph_) return;
-          newest = result->generation == generation_;
-        }
-        if (result->generation < delivered_) return;
-        delivered_ = result->generation;
-        // An older run that was stopped says nothing new, but its finished values are as good as any.
-        for (auto& [name, value] : result->values) values_[name] = value;
-        for (const std::string& name : result->outdated) {
-          statuses_[name] = {};
-          emit status_changed(QString::fromStdString(name));
-        }
-        for (const auto& [name, run] : result->log.nodes) {
-          NodeStatus& status = statuses_[name];
-          if (run.state == NodeState::skipped || run.state == NodeState::cancelled) {
-            // What takes its place says so itself.
-            if (!newest) continue;
-            if (status.state != NodeStatus::State::running && status.state != NodeStatus::State::waiting)
-              continue;
-            status.state = NodeStatus::State::cancelled;
-            status.progress = 0;
-            emit status_changed(QString::fromStdString(name));
-            continue;
-          }
-          status.state = state_named(name_of(run.state));
-          status.progress = 1;
-          status.seconds = run.seconds;
-          status.diagnostics = run.diagnostics;
-          status.cached.clear();
-          for (const auto& [port, output] : run.outputs)
-            if (output.computed) status.cached = output.cached;
-          emit status_changed(QString::fromStdString(name));
-        }
-        for (auto& [name, status] : statuses_) {
-          const bool was_due =
-              status.state == NodeStatus::State::running || status.state == NodeStatus::State::waiting;
-          if (!newest || !was_due || result->log.nodes.contains(name)) continue;
-          status.state = NodeStatus::State::idle;
-          emit status_changed(QString::fromStdString(name));
-        }
-        for (const auto& [name, diagnostics] : result->left_out) {
-          NodeStatus& status = statuses_[name];
-          status = {};
-          const bool open = std::all_of(diagnostics.begin(), diagnostics.end(),
-                                        [](const Diagnostic& d) { return d.code == "open-input"; });
-          status.state = open ? NodeStatus::State::incomplete : NodeStatus::State::failed;
-          status.diagnostics = diagnostics;
-          emit status_changed(QString::fromStdString(name));
-        }
-        sum_up_graph_nodes();
-        log_ = std::move(result->log);
-        problems_ = std::move(result->problems);
-        emit values_changed();
-        emit finished(result->effects);
-      },
-      Qt::QueuedConnection);
 }
 
 }  // namespace kinegraph

@@ -20,7 +20,7 @@ namespace kinegraph {
 
 // How a node stands, as its body on the canvas shows it.
 struct NodeStatus {
-  // incomplete: an input that it needs is not linked yet.
+  // missing: of a type that is unknown here. incomplete: an input that it needs is not linked yet.
   enum class State {
     idle,
     waiting,
@@ -38,6 +38,8 @@ struct NodeStatus {
   double seconds = 0;
   std::string cached;                  // "memory", "disk", "no", "" = not known
   std::shared_ptr<const Still> still;  // of a node that gives a motion, once it is there
+  std::string blocked_by;              // where it is blocked: the node before it that can't give anything
+  int broken_rules = 0;                // of a Check that has run: then it has failed
   Diagnostics diagnostics;
 };
 
@@ -86,6 +88,7 @@ class Evaluation : public QObject {
  private:
   struct Result;
   struct Run;
+  struct Unasked;
   void work();  // the thread that plans, and begins and stops runs
   bool may_begin(const std::optional<EvaluationRequest>& request) const;  // with the lock held
   void begin(EvaluationRequest request);
@@ -93,12 +96,16 @@ class Evaluation : public QObject {
   void replace_by(Run& fresh);  // what runs: it is stopped, or what is still wanted of it is set aside
   void run(Run& run);           // on its own thread
   void finish(Run& run);
-  // States and stills of nodes that the caches know though nothing asked for them; gives way to any request.
-  void look_around(Run& run);
+  // States and stills of nodes that the caches know though nothing asked for them, and of those that were
+  // `done` for an older graph and aren't any more; gives way to any request.
+  void look_around(Run& run, const std::set<std::string>& done);
   void deliver_stills(const Run& run, const std::vector<std::string>& nodes);
   bool gives_way(const Run& run) const;  // something newer waits
   void deliver(std::shared_ptr<Result> result);
   void find_outdated(const Document& document, Result& result);
+  void tell_of_unasked(const Run& run);
+  void take_unasked(const Unasked& told);
+  void take_broken_rules(const RunLog& log);
   void take_stills(const std::map<std::string, std::shared_ptr<const Still>>& stills);
   void sum_up_graph_nodes();
   void sum_up_soon(const std::string& inner);  // the Graph node that this one lies in
@@ -124,13 +131,16 @@ class Evaluation : public QObject {
   std::mutex finishing_;
   StillCache stills_;
 
-  // And of nodes that could not run, what they and all before them looked like then.
+  // Of nodes that could not run, what they and all before them looked like then.
   std::map<std::string, std::string> failed_as_;
+  std::map<std::string, std::string> ran_as_;  // likewise of Exports and Checks that ran
+  std::set<std::string> lost_;                 // nodes whose file isn't there, asked for or not
 
   // GUI thread only.
   std::uint64_t delivered_ = 0;  // generation of the newest result
   std::map<std::string, NodeStatus> statuses_;
-  std::set<std::string> unsummed_;  // Graph nodes, of which inner ones told of themselves since
+  std::map<std::string, std::string> stands_as_;  // a Switch or a Dot, and whose value it passes on
+  std::set<std::string> unsummed_;                // Graph nodes, of which inner ones told of themselves since
   QTimer summing_;
   std::map<std::string, ValuePtr> values_;
   RunLog log_;

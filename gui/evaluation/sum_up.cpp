@@ -35,6 +35,7 @@ void sum_up(std::map<std::string, NodeStatus>& statuses, const std::string& grap
     if (rank(status.state) > rank(sum.state)) {
       sum.state = status.state;
       sum.progress = status.progress;
+      sum.blocked_by = status.blocked_by;
     }
     sum.seconds += status.seconds;
     if (status.cached == "no") sum.cached = "no";

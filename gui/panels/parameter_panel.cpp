@@ -344,9 +344,10 @@ void ParameterPanel::refresh_state() {
   QString text;
   std::set<std::string> said;
   const auto say = [&](const Diagnostic& problem) {
-    const QColor color = problem.severity == Severity::error     ? theme_->error
-                         : problem.severity == Severity::warning ? theme_->warning
-                                                                 : theme_->faint_text;
+    const Severity severity = shown_severity(problem);
+    const QColor color = severity == Severity::error     ? theme_->error
+                         : severity == Severity::warning ? theme_->warning
+                                                         : theme_->faint_text;
     QString line = problem_text(problem).toHtmlEscaped();
     if (const std::string& where = problem.param.empty() ? problem.port : problem.param; !where.empty())
       line = "<b>" + QString::fromStdString(where).toHtmlEscaped() + "</b>: " + line;

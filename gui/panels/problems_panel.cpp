@@ -103,7 +103,7 @@ std::vector<ProblemsPanel::Row> ProblemsPanel::rows() const {
     if (!said.insert(problem.param.empty() ? about + problem.message : about).second) return;
     const QString name = QString::fromStdString(node);
     const std::string& part = problem.port.empty() ? problem.param : problem.port;
-    rows.push_back({problem.severity,
+    rows.push_back({shown_severity(problem),
                     part.empty() ? name : name + "." + QString::fromStdString(part),
                     problem_text(problem),
                     advice_on(problem),
@@ -112,13 +112,13 @@ std::vector<ProblemsPanel::Row> ProblemsPanel::rows() const {
   };
   for (const Severity severity : {Severity::error, Severity::warning, Severity::info}) {
     for (const Diagnostic& problem : session_.problems())
-      if (problem.severity == severity) add(problem, problem.node);
+      if (shown_severity(problem) == severity) add(problem, problem.node);
     for (const auto& [name, node] : session_.document().nodes)
       if (const NodeStatus* status = evaluation_.status(name))
         for (const Diagnostic& problem : status->diagnostics)
-          if (problem.severity == severity) add(problem, name);
+          if (shown_severity(problem) == severity) add(problem, name);
     for (const Diagnostic& problem : evaluation_.log().diagnostics)
-      if (problem.severity == severity) add(problem, problem.node);
+      if (shown_severity(problem) == severity) add(problem, problem.node);
   }
   return rows;
 }

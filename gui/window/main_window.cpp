@@ -43,7 +43,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
       page_tabs_(new QTabBar),
       welcome_(new Welcome(canvas_, registry_)),
       notice_(new NoticeBar),
-      state_text_(new QLabel),
+      state_(new StateLine),
       hover_text_(new QLabel),
       progress_(new QProgressBar) {
   load_pictures();
@@ -71,8 +71,6 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
 
   hover_text_->setObjectName("faint");
   hover_text_->setAccessibleName(tr("What is under the pointer"));
-  state_text_->setAccessibleName(tr("State of the evaluation"));
-  state_text_->setContentsMargins(6, 0, 2, 0);
   hover_text_->setContentsMargins(10, 0, 6, 0);
   progress_->setAccessibleName(tr("Progress"));
   progress_->setFixedSize(140, 8);
@@ -81,7 +79,7 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   progress_->hide();
   hover_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   statusBar()->addWidget(hover_text_, 1);
-  statusBar()->addPermanentWidget(state_text_);
+  statusBar()->addPermanentWidget(state_);
   statusBar()->addPermanentWidget(progress_);
   statusBar()->setContentsMargins(0, 0, 10, 0);
   statusBar()->setSizeGripEnabled(false);
@@ -182,6 +180,7 @@ void MainWindow::set_theme(const Theme& theme) {
   qApp->setStyleSheet(theme.style_sheet());
   canvas_->set_theme(theme);
   welcome_->set_theme(theme);
+  state_->set_theme(theme);
   for (const auto& apply_theme : themed_) apply_theme(theme);
   update_icons();
   emit theme_changed();
@@ -250,40 +249,16 @@ void MainWindow::update_progress() {
   }
   progress_->setVisible(busy);
   progress_->setRange(0, reads ? 0 : 1000);
-  double sum = 0;
-  int running = 0, failed = 0, blocked = 0, incomplete = 0, cancelled = 0;
-  QString name;
-  for (const auto& [node, unused] : session_.document().nodes)
-    if (const NodeStatus* status = evaluation_.status(node)) {
-      failed += status->state == NodeStatus::State::failed;
-      blocked += status->state == NodeStatus::State::blocked;
-      incomplete += status->state == NodeStatus::State::incomplete;
-      cancelled += status->state == NodeStatus::State::cancelled;
-      if (status->state != NodeStatus::State::running) continue;
-      ++running;
-      sum += status->progress;
-      name = QString::fromStdString(node);
-    }
-  progress_->setValue(running ? int(1000 * sum / running) : 0);
+  double progress = 0;
+  const Document& document = session_.document();
+  const Standing at_work = standing_at_work(document, evaluation_, &progress);
+  progress_->setValue(int(1000 * progress));
   if (session_.is_read_only())
-    state_text_->setText(tr("Read-only"));
+    state_->say({Standing::Tone::quiet, tr("Read-only")});
   else if (reads)
-    state_text_->setText(tr("Reading the graph files inside"));
-  else if (busy)
-    state_text_->setText(running == 1 ? tr("%1 is running").arg(name)
-                         : running    ? tr("%1 nodes are running").arg(running)
-                                      : tr("Evaluating…"));
-  else if (cancelled)
-    state_text_->setText(tr("Cancelled"));
-  else if (failed)
-    state_text_->setText(failed == 1 ? tr("1 node failed") : tr("%1 nodes failed").arg(failed));
-  else if (incomplete)
-    state_text_->setText(incomplete == 1 ? tr("1 node needs a link")
-                                         : tr("%1 nodes need links").arg(incomplete));
-  else if (blocked)
-    state_text_->setText(blocked == 1 ? tr("1 node is blocked") : tr("%1 nodes are blocked").arg(blocked));
+    state_->say({Standing::Tone::busy, tr("Reading the graph files inside")});
   else
-    state_text_->setText(session_.document().nodes.empty() ? tr("No nodes") : tr("Up to date"));
+    state_->say(busy ? at_work : standing_of(document, registry_, evaluation_));
 }
 
 void MainWindow::update_title() {

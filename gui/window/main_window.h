@@ -14,6 +14,7 @@
 #include "gui/look/theme.h"
 #include "gui/viewing/playback.h"
 #include "gui/window/notice_bar.h"
+#include "gui/window/state_line.h"
 
 class QDockWidget;
 class QLabel;
@@ -132,7 +133,7 @@ class MainWindow : public QMainWindow {
   QTabBar* page_tabs_;
   Welcome* welcome_;
   NoticeBar* notice_;
-  QLabel* state_text_;
+  StateLine* state_;
   QLabel* hover_text_;
   QProgressBar* progress_;
   std::map<QString, QAction*> actions_;

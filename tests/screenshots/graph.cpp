@@ -1,4 +1,8 @@
 // Pictures of the canvas: port types, states of nodes, gestures under way.
+#include <QHelpEvent>
+#include <QToolTip>
+
+#include "graph/links.h"
 #include "gui/canvas/canvas_edits.h"
 #include "tests/screenshots/shots.h"
 
@@ -26,25 +30,164 @@ const char* const every_port =
   "rubbery": {"type": "Export", "params": {"file": "rubber.glb"}, "inputs": {"motion": "skin.motion",
     "character": "skin.character"}})";
 
-const char* const states = R"("long_walk": {"type": "Gait", "params": {"seconds": 150}},
-  "long_sneak": {"type": "Gait", "params": {"seconds": 140, "gait": "sneak"}},
-  "running": {"type": "TimeWarp", "inputs": {"source": "long_walk.motion", "reference": "long_sneak.motion"}},
-  "waiting": {"type": "UnwarpTime", "inputs": {"motion": "running.warped", "warp": "running.warp"}},
-  "gone": {"type": "Load", "params": {"file": "clips/nowhere.bvh"}},
-  "blocked": {"type": "Filter", "inputs": {"motion": "gone.motion"}},
-  "unknown": {"type": "Hologram", "inputs": {"motion": "walk.motion"}},
-  "walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}},
-  "done": {"type": "Filter", "inputs": {"motion": "walk.motion"}},
-  "disabled": {"type": "Mirror", "enabled": false, "inputs": {"motion": "done.motion"}},
-  "open": {"type": "Footskate"})";
+// A person's afternoon: every state that a node can be in, at once.
+const char* const states = R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}},
+  "calm": {"type": "Filter", "params": {"cutoff": 8}, "inputs": {"motion": "walk.motion"},
+    "note": "Takes the marker noise out"},
+  "softer": {"type": "Filter", "params": {"cutoff": 4}, "inputs": {"motion": "calm.motion"}},
+  "to_game": {"type": "Export", "enabled": false, "params": {"file": "walk_soft.bvh"},
+    "inputs": {"motion": "softer.motion"}},
+  "strut": {"type": "Load", "params": {"file": "clips/strut.bvh"}},
+  "figures": {"type": "Metrics", "inputs": {"motion": "calm.motion"}},
+  "no_skating": {"type": "Check", "params": {"rules": ["skate < 0.0001"]}, "inputs": {"metrics": "figures.metrics"}},
+  "left_handed": {"type": "Mirror", "enabled": false, "inputs": {"motion": "softer.motion"}},
+  "long_walk": {"type": "Gait", "params": {"seconds": 320}},
+  "align": {"type": "TimeWarp", "inputs": {"source": "long_walk.motion", "reference": "long_sneak.motion"}},
+  "retimed": {"type": "UnwarpTime", "inputs": {"motion": "align.warped", "warp": "align.warp"}},
+  "feet": {"type": "Footskate"},
+  "long_sneak": {"type": "Gait", "params": {"seconds": 300, "gait": "sneak"}},
+  "first_try": {"type": "TimeWarp", "inputs": {"source": "long_sneak.motion", "reference": "long_walk.motion"}},
+  "old_take": {"type": "Load", "params": {"file": "clips/take_07.bvh"}},
+  "cleaned": {"type": "Filter", "inputs": {"motion": "old_take.motion"}},
+  "hologram": {"type": "Hologram", "inputs": {"motion": "walk.motion"}})";
+const char* const places_of_states = R"(, "ui": {"nodes": {
+  "walk": {"pos": [0, 0]}, "calm": {"pos": [250, 0]}, "softer": {"pos": [500, 0]}, "to_game": {"pos": [750, 0]},
+  "strut": {"pos": [0, 200]}, "figures": {"pos": [250, 200]}, "no_skating": {"pos": [500, 200]},
+  "left_handed": {"pos": [750, 200]},
+  "long_walk": {"pos": [0, 400]}, "align": {"pos": [250, 400]}, "retimed": {"pos": [500, 400]},
+  "feet": {"pos": [750, 400]},
+  "long_sneak": {"pos": [0, 580]}, "first_try": {"pos": [250, 580]},
+  "hologram": {"pos": [500, 580]},
+  "old_take": {"pos": [0, 780]}, "cleaned": {"pos": [250, 780]}}})";
 
-void ports_and_states(const Theme& theme, const QDir& into, const QString& end) {
+using State = NodeStatus::State;
+
+bool stands(Shot& shot, const std::string& node, State state) {
+  const NodeStatus* status = shot.window.evaluation().status(node);
+  return status && status->state == state;
+}
+
+void wait_for(const std::function<bool()>& condition) {
+  QElapsedTimer clock;
+  for (clock.start(); clock.elapsed() < 60000 && !condition();)
+    QApplication::processEvents(QEventLoop::AllEvents, 20);
+}
+
+// Wherever a tool tip is: its own window.
+void take_tip(Shot& shot, const QString& name, QPoint view) {
+  QHelpEvent help(QEvent::ToolTip, view, shot.canvas().mapToGlobal(view));
+  QApplication::sendEvent(&shot.canvas(), &help);
+  shot.wait(250);
+  for (QWidget* top : QApplication::topLevelWidgets())
+    if (top->inherits("QTipLabel") && top->isVisible()) shot.take_widget(name, top);
+  QToolTip::hideText();
+  shot.wait(100);
+}
+
+void every_state(const Theme& theme, const QDir& into, const QString& end) {
+  Shot shot(theme, into, {1580, 1560});
+  shot.text(states, places_of_states);
+  shot.window.action("run")->trigger();  // the check fails
+  shot.wait(600);
+  const auto edit = [&](const EditStep& step) {
+    shot.session().perform(step);
+    shot.wait();
+  };
+  edit([](const Document& d, const Registry&) { return set_enabled(d, "to_game", true); });
+  shot.session().select({"first_try"}, "first_try");
+  wait_for([&] { return stands(shot, "first_try", State::running); });
+  shot.window.action("cancel")->trigger();
+  shot.wait();
+  shot.select("softer");
+  edit([](const Document& d, const Registry& r) { return set_param(d, r, "softer", "cutoff", Json(3.0)); });
+  shot.session().undo();  // what it gave is in the cache
+  shot.wait();
+  shot.canvas().frame_all();
+  shot.wait();
+  shot.session().select({"retimed"}, "retimed");
+  wait_for([&] {
+    const NodeStatus* align = shot.window.evaluation().status("align");
+    return stands(shot, "align", State::running) && align->progress > 0.3 &&
+           stands(shot, "retimed", State::waiting);
+  });
+  shot.take_widget("node_states" + end, &shot.canvas());
+  shot.window.evaluation().cancel();
+  shot.wait();
+  shot.session().select({"softer"}, "softer");
+  shot.wait();
+  for (const auto& [node, name] : {std::pair("no_skating", "tip_of_check"),
+                                   std::pair("cleaned", "tip_of_blocked"), std::pair("calm", "tip_of_node")})
+    take_tip(shot, name + end, shot.view_of(node));
+  take_tip(shot, "tip_of_port" + end, shot.port("feet", "contacts", true));
+  const QPoint a = shot.port("calm", "motion", false), b = shot.port("softer", "motion", true);
+  take_tip(shot, "tip_of_link" + end, (a + b) / 2);
+}
+
+void at_work(const Theme& theme, const QDir& into, const QString& end) {
+  Shot shot(theme, into);
+  shot.text(R"("long_walk": {"type": "Gait", "params": {"seconds": 320}},
+    "long_sneak": {"type": "Gait", "params": {"seconds": 300, "gait": "sneak"}},
+    "align": {"type": "TimeWarp", "inputs": {"source": "long_walk.motion", "reference": "long_sneak.motion"}},
+    "style": {"type": "QuatStats", "inputs": {"motion": "align.reference"}},
+    "transfer": {"type": "StyleTransfer", "inputs": {"motion": "align.warped", "style": "style.stats"}},
+    "retimed": {"type": "UnwarpTime", "inputs": {"motion": "transfer.motion", "warp": "align.warp"}})");
+  shot.select("long_walk");
+  shot.canvas().frame_all();
+  shot.wait();
+  shot.session().select({"retimed"}, "retimed");
+  wait_for([&] {
+    const NodeStatus* align = shot.window.evaluation().status("align");
+    return stands(shot, "align", State::running) && align->progress > 0.4;
+  });
+  QElapsedTimer clock;
+  for (clock.start(); clock.elapsed() < 300;) QApplication::processEvents(QEventLoop::AllEvents, 20);
+  shot.take("running" + end);
+  shot.window.action("cancel")->trigger();
+  shot.wait();
+  shot.take("cancelled" + end);
+}
+
+// As many as anybody has: takes of a day of recording, each cleaned the same way.
+QByteArray takes(int rows) {
+  static const char* const way[] = {"Load",   "Filter", "Resample",   "DetectContacts", "Footskate",
+                                    "Filter", "Mirror", "Exaggerate", "Metrics",        "Check"};
+  static const char* const names[] = {"take", "calm",   "at_60",  "plants",  "feet",
+                                      "soft", "mirror", "strong", "figures", "judge"};
+  QByteArray nodes;
+  for (int row = 1; row <= rows; ++row) {
+    const QByteArray number = "_" + QByteArray::number(row).rightJustified(2, '0');
+    QByteArray motion;
+    for (int i = 0; i < 10; ++i) {
+      const QByteArray name = names[i] + number, type = way[i];
+      nodes += (nodes.isEmpty() ? "\"" : ", \"") + name + "\": {\"type\": \"" + type + "\"";
+      if (type == "Load")
+        nodes += ", \"params\": {\"file\": \"clips/walk.bvh\"}";
+      else if (type == "Check")
+        nodes += ", \"inputs\": {\"metrics\": \"figures" + number + ".metrics\"}";
+      else
+        nodes += ", \"inputs\": {\"motion\": \"" + motion + ".motion\"}";
+      nodes += "}";
+      if (type != "DetectContacts") motion = name;
+    }
+  }
+  return nodes;
+}
+
+void ports_and_sizes(const Theme& theme, const QDir& into, const QString& end) {
   {
     Shot shot(theme, into);
     shot.take("empty" + end);
     shot.press(Qt::Key_Tab);
     shot.type("style");
     shot.take_widget("search" + end, &shot.canvas());
+    shot.press(Qt::Key_Escape);
+    shot.press(Qt::Key_Tab);
+    shot.type("smooth");
+    shot.take_widget("search_keyword" + end, &shot.canvas());
+    shot.press(Qt::Key_Escape);
+    shot.press(Qt::Key_Tab);
+    shot.type("ftsk");
+    shot.take_widget("search_fuzzy" + end, &shot.canvas());
   }
   {
     Shot shot(theme, into);
@@ -61,31 +204,16 @@ void ports_and_states(const Theme& theme, const QDir& into, const QString& end) 
     shot.take_canvas("port_types" + end);
   }
   {
-    Shot shot(theme, into, {1680, 1560});
-    shot.text(states);
-    shot.select("done");
-    shot.wait(800);
-    shot.select("waiting");
+    Shot shot(theme, into);
+    shot.text(takes(50));
+    shot.select("feet_02");
     shot.canvas().frame_all();
-    QElapsedTimer clock;
-    for (clock.start(); clock.elapsed() < 60000;) {
-      QApplication::processEvents(QEventLoop::AllEvents, 20);
-      const NodeStatus* running = shot.window.evaluation().status("running");
-      const NodeStatus* waiting = shot.window.evaluation().status("waiting");
-      const bool well_under_way = running && running->progress > 0.15;
-      if ((well_under_way || clock.elapsed() > 20000) && running &&
-          running->state == NodeStatus::State::running && waiting &&
-          waiting->state == NodeStatus::State::waiting)
-        break;
-    }
-    shot.take_widget("node_states" + end, &shot.canvas());
-    shot.window.resize(1280, 800);
-    shot.window.action("reset_layout")->trigger();
-    QApplication::processEvents();
-    shot.canvas().show_rect(shot.canvas().scene().bounds_of({"long_sneak", "gone", "running", "waiting"}));
-    shot.wait(0);
-    shot.take("running" + end);
-    shot.window.evaluation().cancel();
+    shot.wait(600);
+    shot.take("five_hundred_nodes" + end);
+    shot.canvas().show_rect(
+        shot.canvas().scene().bounds_of({"calm_02", "soft_04"}).adjusted(-40, -40, 40, 40));
+    shot.wait(600);
+    shot.take("mini_map" + end);
   }
 }
 
@@ -114,6 +242,20 @@ void gestures_ended(const Theme& theme, const QDir& into, const QString& end) {
     shot.window.action("find")->trigger();
     shot.type("tr");
     shot.take_widget("find_node" + end, &shot.canvas());
+    shot.press(Qt::Key_Escape);
+    shot.window.action("find")->trigger();
+    shot.type("retarget");
+    shot.take_widget("find_nothing" + end, &shot.canvas());
+    shot.press(Qt::Key_Escape);
+    shot.session().perform(
+        [](const Document& d, const Registry& r) { return kinegraph::disconnect(d, r, "style", "motion"); });
+    shot.wait();
+    const QPoint open = shot.port("style", "motion", true);
+    shot.drag(open, open + QPoint(-60, 70));
+    QTest::mouseRelease(&shot.canvas(), Qt::LeftButton, Qt::NoModifier, open + QPoint(-60, 70));
+    shot.wait(150);
+    shot.take_widget("search_before" + end, &shot.canvas());
+    shot.press(Qt::Key_Escape);
   }
   {
     Shot shot(theme, into);
@@ -130,7 +272,12 @@ void gestures_ended(const Theme& theme, const QDir& into, const QString& end) {
     shot.session().perform([&](const Document& d, const Registry&) {
       return place_note(d, note, QRectF(all.left(), all.bottom() + 60, 220, 60));
     });
+    shot.select("transfer");
     shot.take_canvas("frame_and_note" + end);
+    const QRectF bar = shot.canvas().scene().frames().front().title_bar;
+    QTest::mouseClick(&shot.canvas(), Qt::LeftButton, Qt::NoModifier,
+                      shot.canvas().to_view(bar.center()).toPoint());
+    shot.take_canvas("frame_chosen" + end);
     shot.select("transfer");
     shot.take_popup("colours" + end, [&] { shot.window.action("color")->trigger(); });
   }
@@ -165,13 +312,33 @@ void gestures_under_way(const Theme& theme, const QDir& into, const QString& end
   {
     Shot shot(theme, into);
     shot.open("sneaky_walk");
-    const QString name = QString::fromStdString(shot.canvas().add("Filter", {420, 420}));
-    shot.canvas().frame_all();
+    std::map<std::string, QPointF> apart;  // room between two nodes, and a third one below
+    for (const SceneNode& node : shot.canvas().scene().nodes())
+      apart[node.name] =
+          node.rect.topLeft() + QPointF(node.name == "feet" || node.name == "out" ? 240 : 0, 0);
+    shot.session().perform([&](const Document& d, const Registry&) { return move_nodes(d, apart); });
+    const QRectF transfer = shot.canvas().scene().node("transfer")->rect;
+    const std::string added = shot.canvas().add("Filter", transfer.bottomRight() + QPointF(60, 60));
+    shot.session().perform(
+        [&](const Document& d, const Registry&) { return rename_node(d, added, "soften"); });
+    shot.canvas().show_rect(
+        shot.canvas().scene().bounds_of({"style", "soften", "feet", "out"}).adjusted(-20, -80, 20, 20));
     shot.wait();
     const QPoint a = shot.port("transfer", "motion", false), b = shot.port("feet", "motion", true);
-    const QPoint at = shot.view_of(name.toStdString());
-    shot.drag(at, (a + b) / 2);
+    const QPoint at = shot.view_of("soften");
+    const QPoint onto = (a + b) / 2 - QPoint(0, int(26 * shot.canvas().zoom()));
+    shot.drag(at, onto);
     shot.take_widget("insert_under_way" + end, &shot.canvas());
+    QTest::mouseRelease(&shot.canvas(), Qt::LeftButton, Qt::NoModifier, onto);
+    shot.wait();
+    shot.take_widget("inserted" + end, &shot.canvas());
+    const QPoint from = shot.view_of("soften");
+    const QPoint away = from + QPoint(0, int(200 * shot.canvas().zoom()));
+    shot.drag(from, away, Qt::AltModifier);
+    shot.take_widget("take_out_under_way" + end, &shot.canvas());
+    QTest::mouseRelease(&shot.canvas(), Qt::LeftButton, Qt::AltModifier, away);
+    shot.wait();
+    shot.take_widget("taken_out" + end, &shot.canvas());
   }
   {
     Shot shot(theme, into);
@@ -214,33 +381,15 @@ void canvas_states(const Theme& theme, const QDir& into, const QString& end) {
   shot.take_dock("parameters_several" + end, "Parameters");
 }
 
-void cancelled(const Theme& theme, const QDir& into, const QString& end) {
-  Shot shot(theme, into);
-  shot.text(R"("long_walk": {"type": "Gait", "params": {"seconds": 400}},
-    "long_sneak": {"type": "Gait", "params": {"seconds": 380, "gait": "sneak"}},
-    "warp": {"type": "TimeWarp", "inputs": {"source": "long_walk.motion", "reference": "long_sneak.motion"}},
-    "back": {"type": "UnwarpTime", "inputs": {"motion": "warp.warped", "warp": "warp.warp"}})");
-  shot.session().select({"back"}, "back");
-  QElapsedTimer clock;
-  for (clock.start(); clock.elapsed() < 60000;) {
-    QApplication::processEvents(QEventLoop::AllEvents, 20);
-    const NodeStatus* warp = shot.window.evaluation().status("warp");
-    if (warp && warp->state == NodeStatus::State::running) break;
-  }
-  shot.window.action("cancel")->trigger();
-  shot.canvas().frame_all();
-  shot.wait();
-  shot.take("cancelled" + end);
-}
-
 }  // namespace
 
 void graph_pictures(const Theme& theme, const QDir& into, const QString& end) {
-  ports_and_states(theme, into, end);
+  ports_and_sizes(theme, into, end);
+  every_state(theme, into, end);
+  at_work(theme, into, end);
   gestures_ended(theme, into, end);
   gestures_under_way(theme, into, end);
   canvas_states(theme, into, end);
-  cancelled(theme, into, end);
 }
 
 }  // namespace kinegraph::shots
