@@ -195,9 +195,17 @@ void GraphCanvas::paint_mini_map(QPainter& p) {
                                                         std::max(2.0, node.rect.height() * scale)));
     p.fillRect(box, session_.selected().count(node.name) ? theme_->accent : family_color(*theme_, node));
   }
+  // What is out of sight is dimmed, so that the part in sight stands out among any number of nodes.
+  const QRectF seen(place(to_graph({0, 0})), place(to_graph({double(width()), double(height())})));
+  QPainterPath out_of_sight;
+  out_of_sight.addRect(map);
+  out_of_sight.addRect(seen.intersected(map));
+  QColor veil = theme_->panel;
+  veil.setAlphaF(0.6f);
+  p.fillPath(out_of_sight, veil);
   p.setPen(QPen(theme_->accent, 1));
   p.setBrush(Qt::NoBrush);
-  p.drawRect(QRectF(place(to_graph({0, 0})), place(to_graph({double(width()), double(height())}))));
+  p.drawRect(seen);
   p.restore();
 }
 

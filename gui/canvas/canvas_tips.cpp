@@ -88,6 +88,7 @@ QString GraphCanvas::node_tip(const SceneNode& node) const {
   rest += block(capitalised(stands).toHtmlEscaped(), state_color(*theme_, state));
   std::set<std::string> said;
   const auto say = [&](const Diagnostic& problem) {
+    if (problem.code == "blocked" && status && !status->blocked_by.empty()) return;  // said already
     if (!said.insert(problem.code + "\n" + problem.param + problem.port).second) return;
     const Severity severity = shown_severity(problem);
     QString line = problem_text(problem).toHtmlEscaped();

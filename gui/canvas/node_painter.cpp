@@ -191,7 +191,7 @@ QString instead_of_still(NodeStatus::State state, const NodeStatus* status) {
     case State::waiting:
       return QObject::tr("waits for its turn");
     case State::running:
-      return QObject::tr("in the making");
+      return QObject::tr("computing…");
     case State::cancelled:
       return QObject::tr("stopped before it was done");
     case State::blocked:
@@ -268,7 +268,7 @@ QStringList beside_type(const SceneNode& node, NodeStatus::State state, const No
     case State::idle:
       if (node.effect) return {QObject::tr("not run yet"), QObject::tr("not run")};
       // A motion's still says so.
-      return node.still.isNull() ? QStringList{shown_state(state), QObject::tr("not computed")}
+      return node.still.isNull() ? QStringList{shown_state(state), QObject::tr("not computed"), {}}
                                  : QStringList();
     case State::done: {
       if (status->seconds <= 0 && status->cached.empty()) return {};
@@ -288,6 +288,8 @@ QStringList beside_type(const SceneNode& node, NodeStatus::State state, const No
                                shown_state(state)};
     case State::incomplete:
       return {what_it_needs(*status)};
+    case State::running:
+      return {QObject::tr("running · %1 %").arg(int(100 * status->progress)), shown_state(state)};
     default:
       return {shown_state(state)};
   }
@@ -340,7 +342,9 @@ void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, No
   const double line = pixels * 1.3;
   p.setFont(fitted(font_of(pixels, true), name, across));
   p.setPen(ink);
-  draw_text(p, QRectF(left, top, across, line), Qt::AlignLeft, name);
+  // Of a letter or two with an ellipsis nobody reads anything.
+  const bool legible = across > std::min(wide(pixels), 3 * pixels);
+  if (legible) draw_text(p, QRectF(left, top, across, line), Qt::AlignLeft, name);
   double bottom = top + line;
   if (with_type) {
     const QString type = QString::fromStdString(node.type);
@@ -387,7 +391,8 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
   const double edge_width = std::max(pixel, whole(bad ? 1.6 : 1.2));
   const QRectF box(edge_width / 2, edge_width / 2, whole(node.rect.width()) - edge_width,
                    whole(node.rect.height()) - edge_width);
-  const QColor family = family_color(theme, node);
+  QColor family = family_color(theme, node);
+  if (!node.enabled) family.setAlphaF(0.4f);
   const bool small = zoom < 0.6;
 
   QPainterPath outline;
@@ -462,7 +467,7 @@ void draw_node(QPainter& p, const SceneNode& node, const NodeStatus* status, std
             node.inputs.empty() || node.outputs.empty() ? box.width() - 24 : box.width() / 2 - 10;
         const QRectF label(input ? 12 : box.width() - 12 - half, port.at.y() - 9, half, 18);
         draw_text(p, label, input ? Qt::AlignLeft : Qt::AlignRight,
-                  QString::fromStdString(port.name) + (port.list ? " …" : ""));
+                  QString::fromStdString(port.name) + (port.list ? " +" : ""));
       }
     if (!node.still.isNull())
       draw_still(p, node.still, status ? status->still.get() : nullptr, instead_of_still(state, status),

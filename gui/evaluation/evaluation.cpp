@@ -364,6 +364,8 @@ void Evaluation::tell_of_unasked(const Run& run) {
     lost_.insert(name);
   }
   told->blocked = blocked_part(run.plan, failed);
+  for (const PlannedNode& node : run.plan.nodes)
+    if (node.type && node.enabled) told->able.insert(node.name);
   for (const auto& [name, ports] : run.plan.passed) {
     const auto node = request.document.nodes.find(name);
     if (node == request.document.nodes.end() || node->second.nested || !node->second.enabled) continue;

@@ -63,6 +63,12 @@ void Evaluation::take_unasked(const Unasked& told) {
     emit status_changed(QString::fromStdString(name));
   };
   stands_as_ = told.stands_as;
+  for (const std::string& name : told.able) {
+    const auto was = statuses_.find(name);
+    if (was != statuses_.end() &&
+        (was->second.state == State::disabled || was->second.state == State::missing))
+      stands(name, {});
+  }
   for (const std::string& name : told.found)
     if (statuses_[name].state == State::failed) stands(name, {});
   for (const auto& [name, problems] : told.lost)

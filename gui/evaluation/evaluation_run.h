@@ -38,6 +38,7 @@ struct Evaluation::Run {
 struct Evaluation::Unasked {
   std::map<std::string, Diagnostics> lost;       // their file isn't there
   std::vector<std::string> found;                // it is there again
+  std::set<std::string> able;                    // neither disabled nor of an unknown type
   std::map<std::string, std::string> blocked;    // see blocked_part.h
   std::map<std::string, std::string> stands_as;  // a Switch or a Dot, and the node whose value it passes on
 };

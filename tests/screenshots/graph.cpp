@@ -2,6 +2,7 @@
 #include <QHelpEvent>
 #include <QToolTip>
 
+#include "graph/file/read.h"
 #include "graph/links.h"
 #include "gui/canvas/canvas_edits.h"
 #include "tests/screenshots/shots.h"
@@ -30,35 +31,36 @@ const char* const every_port =
   "rubbery": {"type": "Export", "params": {"file": "rubber.glb"}, "inputs": {"motion": "skin.motion",
     "character": "skin.character"}})";
 
-// A person's afternoon: every state that a node can be in, at once.
-const char* const states = R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}},
+// A person's afternoon: every state that a node can be in, at once. What is wrong comes later: with it the
+// graph would not run.
+const char* const sound_states = R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}},
   "calm": {"type": "Filter", "params": {"cutoff": 8}, "inputs": {"motion": "walk.motion"},
     "note": "Takes the marker noise out"},
-  "softer": {"type": "Filter", "params": {"cutoff": 4}, "inputs": {"motion": "calm.motion"}},
+  "final": {"type": "Filter", "params": {"cutoff": 4}, "inputs": {"motion": "calm.motion"}},
   "to_game": {"type": "Export", "enabled": false, "params": {"file": "walk_soft.bvh"},
-    "inputs": {"motion": "softer.motion"}},
+    "inputs": {"motion": "final.motion"}},
   "strut": {"type": "Load", "params": {"file": "clips/strut.bvh"}},
+  "left_handed": {"type": "Mirror", "enabled": false, "inputs": {"motion": "walk.motion"}},
   "figures": {"type": "Metrics", "inputs": {"motion": "calm.motion"}},
   "no_skating": {"type": "Check", "params": {"rules": ["skate < 0.0001"]}, "inputs": {"metrics": "figures.metrics"}},
-  "left_handed": {"type": "Mirror", "enabled": false, "inputs": {"motion": "softer.motion"}},
-  "long_walk": {"type": "Gait", "params": {"seconds": 320}},
+  "long_walk": {"type": "Gait", "params": {"seconds": 200}},
   "align": {"type": "TimeWarp", "inputs": {"source": "long_walk.motion", "reference": "long_sneak.motion"}},
   "retimed": {"type": "UnwarpTime", "inputs": {"motion": "align.warped", "warp": "align.warp"}},
-  "feet": {"type": "Footskate"},
-  "long_sneak": {"type": "Gait", "params": {"seconds": 300, "gait": "sneak"}},
-  "first_try": {"type": "TimeWarp", "inputs": {"source": "long_sneak.motion", "reference": "long_walk.motion"}},
-  "old_take": {"type": "Load", "params": {"file": "clips/take_07.bvh"}},
-  "cleaned": {"type": "Filter", "inputs": {"motion": "old_take.motion"}},
-  "hologram": {"type": "Hologram", "inputs": {"motion": "walk.motion"}})";
+  "long_sneak": {"type": "Gait", "params": {"seconds": 190, "gait": "sneak"}},
+  "first_try": {"type": "TimeWarp", "inputs": {"source": "long_sneak.motion", "reference": "long_walk.motion"}})";
 const char* const places_of_states = R"(, "ui": {"nodes": {
-  "walk": {"pos": [0, 0]}, "calm": {"pos": [250, 0]}, "softer": {"pos": [500, 0]}, "to_game": {"pos": [750, 0]},
-  "strut": {"pos": [0, 200]}, "figures": {"pos": [250, 200]}, "no_skating": {"pos": [500, 200]},
-  "left_handed": {"pos": [750, 200]},
-  "long_walk": {"pos": [0, 400]}, "align": {"pos": [250, 400]}, "retimed": {"pos": [500, 400]},
-  "feet": {"pos": [750, 400]},
-  "long_sneak": {"pos": [0, 580]}, "first_try": {"pos": [250, 580]},
-  "hologram": {"pos": [500, 580]},
-  "old_take": {"pos": [0, 780]}, "cleaned": {"pos": [250, 780]}}})";
+  "walk": {"pos": [0, 0]}, "calm": {"pos": [250, 0]}, "final": {"pos": [500, 0]}, "to_game": {"pos": [750, 0]},
+  "strut": {"pos": [0, 190]}, "left_handed": {"pos": [250, 190]}, "figures": {"pos": [500, 190]},
+  "no_skating": {"pos": [750, 190]},
+  "long_walk": {"pos": [0, 380]}, "align": {"pos": [250, 380]}, "retimed": {"pos": [500, 380]},
+  "long_sneak": {"pos": [0, 560]}, "first_try": {"pos": [250, 560]}}})";
+const char* const wrong_states = R"({"format": "kinegraph", "schema": 1, "nodes": {
+  "feet": {"type": "Footskate"},
+  "hologram": {"type": "Hologram", "inputs": {"motion": "old_take.motion"}},
+  "old_take": {"type": "Load", "params": {"file": "clips/take_07.bvh"}},
+  "cleaned": {"type": "Filter", "inputs": {"motion": "old_take.motion"}}}, "ui": {"nodes": {
+  "feet": {"pos": [750, 380]}, "old_take": {"pos": [500, 560]}, "cleaned": {"pos": [750, 560]},
+  "hologram": {"pos": [750, 690]}}}})";
 
 using State = NodeStatus::State;
 
@@ -69,7 +71,7 @@ bool stands(Shot& shot, const std::string& node, State state) {
 
 void wait_for(const std::function<bool()>& condition) {
   QElapsedTimer clock;
-  for (clock.start(); clock.elapsed() < 60000 && !condition();)
+  for (clock.start(); clock.elapsed() < 120000 && !condition();)
     QApplication::processEvents(QEventLoop::AllEvents, 20);
 }
 
@@ -86,7 +88,9 @@ void take_tip(Shot& shot, const QString& name, QPoint view) {
 
 void every_state(const Theme& theme, const QDir& into, const QString& end) {
   Shot shot(theme, into, {1580, 1560});
-  shot.text(states, places_of_states);
+  shot.text(sound_states, places_of_states);
+  shot.session().select({"calm"}, "calm");
+  shot.wait();
   shot.window.action("run")->trigger();  // the check fails
   shot.wait(600);
   const auto edit = [&](const EditStep& step) {
@@ -94,12 +98,24 @@ void every_state(const Theme& theme, const QDir& into, const QString& end) {
     shot.wait();
   };
   edit([](const Document& d, const Registry&) { return set_enabled(d, "to_game", true); });
+  edit([](const Document& d, const Registry& r) {
+    std::vector<std::string> names;
+    const Document part = read_document(wrong_states, "wrong", r).document;
+    std::vector<EditStep> steps{
+        [&](const Document& now, const Registry&) { return paste(now, r, part, 0, 0, &names); }};
+    // A paste gives names of its own.
+    for (const auto& [name, node] : part.nodes)
+      steps.push_back([&, name = name, at = steps.size() - 1](const Document& now, const Registry&) {
+        return rename_node(now, names[at], name);
+      });
+    return one_after_another(d, r, "Paste", steps);
+  });
   shot.session().select({"first_try"}, "first_try");
   wait_for([&] { return stands(shot, "first_try", State::running); });
   shot.window.action("cancel")->trigger();
   shot.wait();
-  shot.select("softer");
-  edit([](const Document& d, const Registry& r) { return set_param(d, r, "softer", "cutoff", Json(3.0)); });
+  shot.select("final");
+  edit([](const Document& d, const Registry& r) { return set_param(d, r, "final", "cutoff", Json(3.0)); });
   shot.session().undo();  // what it gave is in the cache
   shot.wait();
   shot.canvas().frame_all();
@@ -107,37 +123,41 @@ void every_state(const Theme& theme, const QDir& into, const QString& end) {
   shot.session().select({"retimed"}, "retimed");
   wait_for([&] {
     const NodeStatus* align = shot.window.evaluation().status("align");
-    return stands(shot, "align", State::running) && align->progress > 0.3 &&
+    return stands(shot, "align", State::running) && align->progress > 0.2 &&
            stands(shot, "retimed", State::waiting);
   });
   shot.take_widget("node_states" + end, &shot.canvas());
   shot.window.evaluation().cancel();
   shot.wait();
-  shot.session().select({"softer"}, "softer");
+  shot.session().select({"final"}, "final");
   shot.wait();
   for (const auto& [node, name] : {std::pair("no_skating", "tip_of_check"),
                                    std::pair("cleaned", "tip_of_blocked"), std::pair("calm", "tip_of_node")})
     take_tip(shot, name + end, shot.view_of(node));
   take_tip(shot, "tip_of_port" + end, shot.port("feet", "contacts", true));
-  const QPoint a = shot.port("calm", "motion", false), b = shot.port("softer", "motion", true);
+  const QPoint a = shot.port("calm", "motion", false), b = shot.port("final", "motion", true);
   take_tip(shot, "tip_of_link" + end, (a + b) / 2);
 }
 
 void at_work(const Theme& theme, const QDir& into, const QString& end) {
   Shot shot(theme, into);
-  shot.text(R"("long_walk": {"type": "Gait", "params": {"seconds": 320}},
-    "long_sneak": {"type": "Gait", "params": {"seconds": 300, "gait": "sneak"}},
+  shot.text(R"("long_walk": {"type": "Gait", "params": {"seconds": 2}},
+    "long_sneak": {"type": "Gait", "params": {"seconds": 2, "gait": "sneak"}},
     "align": {"type": "TimeWarp", "inputs": {"source": "long_walk.motion", "reference": "long_sneak.motion"}},
     "style": {"type": "QuatStats", "inputs": {"motion": "align.reference"}},
     "transfer": {"type": "StyleTransfer", "inputs": {"motion": "align.warped", "style": "style.stats"}},
     "retimed": {"type": "UnwarpTime", "inputs": {"motion": "transfer.motion", "warp": "align.warp"}})");
   shot.select("long_walk");
+  for (const auto& [name, seconds] : {std::pair("long_walk", 200.0), std::pair("long_sneak", 190.0)})
+    shot.session().perform([&, name = name, seconds = seconds](const Document& d, const Registry& r) {
+      return set_param(d, r, name, "seconds", Json(seconds));
+    });
   shot.canvas().frame_all();
   shot.wait();
   shot.session().select({"retimed"}, "retimed");
   wait_for([&] {
     const NodeStatus* align = shot.window.evaluation().status("align");
-    return stands(shot, "align", State::running) && align->progress > 0.4;
+    return stands(shot, "align", State::running) && align->progress > 0.2;
   });
   QElapsedTimer clock;
   for (clock.start(); clock.elapsed() < 300;) QApplication::processEvents(QEventLoop::AllEvents, 20);
@@ -148,12 +168,15 @@ void at_work(const Theme& theme, const QDir& into, const QString& end) {
 }
 
 // As many as anybody has: takes of a day of recording, each cleaned the same way.
-QByteArray takes(int rows) {
+struct Takes {
+  QByteArray nodes, places;
+};
+Takes takes(int rows, int rows_in_a_column) {
   static const char* const way[] = {"Load",   "Filter", "Resample",   "DetectContacts", "Footskate",
                                     "Filter", "Mirror", "Exaggerate", "Metrics",        "Check"};
   static const char* const names[] = {"take", "calm",   "at_60",  "plants",  "feet",
                                       "soft", "mirror", "strong", "figures", "judge"};
-  QByteArray nodes;
+  QByteArray nodes, places;
   for (int row = 1; row <= rows; ++row) {
     const QByteArray number = "_" + QByteArray::number(row).rightJustified(2, '0');
     QByteArray motion;
@@ -167,10 +190,13 @@ QByteArray takes(int rows) {
       else
         nodes += ", \"inputs\": {\"motion\": \"" + motion + ".motion\"}";
       nodes += "}";
+      const int x = 250 * i + 2700 * ((row - 1) / rows_in_a_column), y = 200 * ((row - 1) % rows_in_a_column);
+      places += (places.isEmpty() ? "\"" : ", \"") + name + "\": {\"pos\": [" + QByteArray::number(x) + ", " +
+                QByteArray::number(y) + "]}";
       if (type != "DetectContacts") motion = name;
     }
   }
-  return nodes;
+  return {nodes, ", \"ui\": {\"nodes\": {" + places + "}}"};
 }
 
 void ports_and_sizes(const Theme& theme, const QDir& into, const QString& end) {
@@ -200,12 +226,15 @@ void ports_and_sizes(const Theme& theme, const QDir& into, const QString& end) {
   {
     Shot shot(theme, into, {2200, 1250});
     shot.text(every_port);
-    shot.wait(1500);
+    for (const char* last : {"figures", "edit", "skin", "sparks"}) shot.select(last);
+    shot.session().select({});
+    shot.wait(600);
     shot.take_canvas("port_types" + end);
   }
   {
     Shot shot(theme, into);
-    shot.text(takes(50));
+    const Takes many = takes(50, 17);
+    shot.text(many.nodes, many.places);
     shot.select("feet_02");
     shot.canvas().frame_all();
     shot.wait(600);
@@ -248,11 +277,11 @@ void gestures_ended(const Theme& theme, const QDir& into, const QString& end) {
     shot.take_widget("find_nothing" + end, &shot.canvas());
     shot.press(Qt::Key_Escape);
     shot.session().perform(
-        [](const Document& d, const Registry& r) { return kinegraph::disconnect(d, r, "style", "motion"); });
+        [](const Document& d, const Registry& r) { return kinegraph::disconnect(d, r, "plants", "motion"); });
     shot.wait();
-    const QPoint open = shot.port("style", "motion", true);
-    shot.drag(open, open + QPoint(-60, 70));
-    QTest::mouseRelease(&shot.canvas(), Qt::LeftButton, Qt::NoModifier, open + QPoint(-60, 70));
+    const QPoint open = shot.port("plants", "motion", true);
+    shot.drag(open, open + QPoint(-80, -40));
+    QTest::mouseRelease(&shot.canvas(), Qt::LeftButton, Qt::NoModifier, open + QPoint(-80, -40));
     shot.wait(150);
     shot.take_widget("search_before" + end, &shot.canvas());
     shot.press(Qt::Key_Escape);
@@ -272,6 +301,7 @@ void gestures_ended(const Theme& theme, const QDir& into, const QString& end) {
     shot.session().perform([&](const Document& d, const Registry&) {
       return place_note(d, note, QRectF(all.left(), all.bottom() + 60, 220, 60));
     });
+    shot.canvas().select_decor({}, {});
     shot.select("transfer");
     shot.take_canvas("frame_and_note" + end);
     const QRectF bar = shot.canvas().scene().frames().front().title_bar;
@@ -315,14 +345,14 @@ void gestures_under_way(const Theme& theme, const QDir& into, const QString& end
     std::map<std::string, QPointF> apart;  // room between two nodes, and a third one below
     for (const SceneNode& node : shot.canvas().scene().nodes())
       apart[node.name] =
-          node.rect.topLeft() + QPointF(node.name == "feet" || node.name == "out" ? 240 : 0, 0);
+          node.rect.topLeft() +
+          QPointF(node.name == "feet" || node.name == "out" || node.name == "plants" ? 240 : 0, 0);
     shot.session().perform([&](const Document& d, const Registry&) { return move_nodes(d, apart); });
     const QRectF transfer = shot.canvas().scene().node("transfer")->rect;
     const std::string added = shot.canvas().add("Filter", transfer.bottomRight() + QPointF(60, 60));
     shot.session().perform(
         [&](const Document& d, const Registry&) { return rename_node(d, added, "soften"); });
-    shot.canvas().show_rect(
-        shot.canvas().scene().bounds_of({"style", "soften", "feet", "out"}).adjusted(-20, -80, 20, 20));
+    shot.canvas().frame_all();
     shot.wait();
     const QPoint a = shot.port("transfer", "motion", false), b = shot.port("feet", "motion", true);
     const QPoint at = shot.view_of("soften");
