@@ -14,6 +14,7 @@
 #include "gui/curves/channel_plot.h"
 #include "gui/curves/warp_plot.h"
 #include "gui/viewing/looked_at.h"
+#include "gui/viewing/on_its_way.h"
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/metrics.h"
 #include "nodes/motion/motion.h"
@@ -283,7 +284,7 @@ QString CurvesPanel::why_not(const Offer& offer) const {
       return tr("%1 was cancelled.").arg(node);
     default:
       return session_.is_read_only() ? tr("A graph of a newer Kinegraph can't be computed here.")
-                                     : tr("Evaluating %1…").arg(offer.name);
+                                     : on_its_way(session_.document(), evaluation_, offer.result.node);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "gui/timeline/transport_icon.h"
 #include "gui/viewer/motion_scene.h"
 #include "gui/viewing/looked_at.h"
+#include "gui/viewing/on_its_way.h"
 
 namespace kinegraph {
 namespace {
@@ -44,7 +45,7 @@ Timeline::Timeline(Session& session, Evaluation& evaluation, Playback& playback,
   // Why there is nothing to play yet may have changed.
   connect(&evaluation_, &Evaluation::status_changed, this, [this](const QString& node) {
     for (const Viewer::Shown& one : viewer_.shown())
-      if (!one.motion && one.target.node == node.toStdString()) return take_values();
+      if (!one.motion && (!playable_ || one.target.node == node.toStdString())) return take_values();
   });
   connect(&viewer_.motions(), &ShownMotions::made, this, &Timeline::take_values);
   connect(&playback_, &Playback::state_changed, this, &Timeline::update_state);
@@ -208,21 +209,21 @@ std::optional<Target> Timeline::nearest_warp(const Document& document, const Reg
 QString Timeline::why_not(const std::string& node) const {
   using State = NodeStatus::State;
   const NodeStatus* status = evaluation_.status(node);
-  if (session_.is_read_only()) return tr("can't be computed here, as a newer Kinegraph made the graph");
+  const QString name = QString::fromStdString(node);
+  if (session_.is_read_only())
+    return tr("%1 can't be computed here, as a newer Kinegraph made the graph.").arg(name);
   switch (status ? status->state : State::idle) {
     case State::failed:
     case State::missing:
-      return tr("failed, so there is nothing to play");
+      return tr("%1 failed, so there is nothing to play.").arg(name);
     case State::blocked:
-      return tr("waits for a node before it that failed or is not linked");
+      return tr("%1 waits for a node before it that failed or is not linked.").arg(name);
     case State::incomplete:
-      return tr("isn't linked yet");
+      return tr("%1 isn't linked yet.").arg(name);
     case State::cancelled:
-      return tr("was cancelled");
-    case State::waiting:
-      return tr("waits for its turn");
+      return tr("%1 was cancelled.").arg(name);
     default:
-      return tr("is being evaluated…");
+      return on_its_way(session_.document(), evaluation_, node);
   }
 }
 

@@ -82,11 +82,8 @@ void TimelineTracks::fit_gutter() {
 
 QString TimelineTracks::why_nothing() const {
   if (any_motion()) return {};
-  QString words = tr("No motion is shown, so there is nothing to play.");
-  if (!rows_.empty() && !rows_.front().why_not.isEmpty())
-    words = tr("%1 %2").arg(rows_.front().name, rows_.front().why_not);
-  if (!words.endsWith('.') && !words.endsWith(QStringLiteral("…"))) words += '.';
-  return words;
+  if (!rows_.empty() && !rows_.front().why_not.isEmpty()) return rows_.front().why_not;
+  return tr("No motion is shown, so there is nothing to play.");
 }
 
 bool TimelineTracks::any_motion() const {

@@ -20,7 +20,7 @@ class TimelineTracks : public QWidget {
     QString name;
     QColor color;
     std::shared_ptr<const ShownMotion> motion;
-    QString why_not = {};                           // why there is no motion
+    QString why_not = {};                           // why there is no motion, as a sentence
     std::shared_ptr<const Contacts> contacts = {};  // null: those found in the motion
   };
 

@@ -86,8 +86,7 @@ QRgb lit_color(QRgb base, QVector3D normal, QVector3D toward) {
   return qRgb(part(qRed(base)), part(qGreen(base)), part(qBlue(base)));
 }
 
-QImage solid_sheet(const QRect& area, const std::vector<SeenCapsule>& capsules, QVector3D right,
-                   QVector3D up) {
+QImage solid_sheet(const QRect& area, const std::vector<SeenCapsule>& capsules, QVector3D up) {
   QImage sheet(area.size(), QImage::Format_ARGB32_Premultiplied);
   sheet.fill(Qt::transparent);
   std::vector<float> nearest(static_cast<std::size_t>(area.width()) * static_cast<std::size_t>(area.height()),

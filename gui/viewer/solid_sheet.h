@@ -26,7 +26,6 @@ struct SeenCapsule {
 
 // What they look like together, inside `area` of the picture; transparent where there is none of them.
 // `up`: of the camera.
-QImage solid_sheet(const QRect& area, const std::vector<SeenCapsule>& capsules, QVector3D right,
-                   QVector3D up);
+QImage solid_sheet(const QRect& area, const std::vector<SeenCapsule>& capsules, QVector3D up);
 
 }  // namespace kinegraph

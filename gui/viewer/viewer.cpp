@@ -17,6 +17,7 @@
 #include "gui/viewer/motion_scene.h"
 #include "gui/viewer/stage.h"
 #include "gui/viewing/looked_at.h"
+#include "gui/viewing/on_its_way.h"
 
 namespace kinegraph {
 namespace {
@@ -571,10 +572,8 @@ void Viewer::update_words() {
     } else if (status && status->state == State::cancelled) {
       words = tr("%1 was cancelled. Choose another node or change something, and work goes on.")
                   .arg(name.toHtmlEscaped());
-    } else if (status && status->state == State::waiting) {
-      words = tr("%1 waits for its turn.").arg(name.toHtmlEscaped());
     } else {
-      words = tr("Evaluating %1…").arg(name.toHtmlEscaped());
+      words = on_its_way(session_.document(), evaluation_, node).toHtmlEscaped();
     }
   }
   if (any && words.isEmpty()) {
