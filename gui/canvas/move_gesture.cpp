@@ -103,8 +103,8 @@ class Move : public CanvasGesture {
     }
   }
   bool hides(const SceneWire& wire) const override {
-    return links_.gone.contains(
-        {PortAt{wire.from, wire.from_port, false}, PortAt{wire.to, wire.to_port, true}});
+    return !links_.gone.empty() && links_.gone.contains({PortAt{wire.from, wire.from_port, false},
+                                                         PortAt{wire.to, wire.to_port, true}});
   }
   Qt::CursorShape cursor() const override { return moved_ ? Qt::SizeAllCursor : Qt::ArrowCursor; }
 

@@ -212,6 +212,12 @@ QString instead_of_still(NodeStatus::State state, const NodeStatus* status) {
 // Farther limbs first: the right side, then the middle, then the left.
 void draw_still(QPainter& p, const QRectF& box, const Still* still, const QString& instead,
                 const Theme& theme) {
+  if ((!still || still->limbs.empty()) && instead.isEmpty()) {
+    p.setPen(Qt::NoPen);
+    p.setBrush(theme.still_ground);
+    p.drawRoundedRect(box, 3, 3);
+    return;
+  }
   if (!still || still->limbs.empty()) {
     p.setPen(QPen(theme.line, 1, Qt::DashLine));
     p.setBrush(Qt::NoBrush);
@@ -323,7 +329,7 @@ void draw_small(QPainter& p, const SceneNode& node, const NodeStatus* status, No
   const QString name = QString::fromStdString(node.name);
   const auto wide = [&](double at) { return QFontMetricsF(font_of(at, true)).horizontalAdvance(name); };
   const Still* known = status ? status->still.get() : nullptr;
-  const bool with_still = !node.still.isNull() && zoom >= 0.3 && known && !known->limbs.empty();
+  const bool with_still = !node.still.isNull() && zoom >= 0.3;
   const double largest = std::clamp(10.6 * pixel, 14.0, 44.0), smallest = 9.2 * pixel;
   const double type_pixels = 9 * pixel, type_line = type_pixels * 1.35;
   const double below = with_still ? 0.42 * box.height() : 0;

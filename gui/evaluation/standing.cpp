@@ -54,8 +54,8 @@ Standing standing_of(const Document& document, const Registry& registry, const E
   say(count.unknown, QObject::tr("1 node of unknown type"), QObject::tr("%1 nodes of unknown type"),
       Tone::warning);
   say(count.open, QObject::tr("1 node needs a link"), QObject::tr("%1 nodes need links"), Tone::warning);
-  say(count.blocked, QObject::tr("1 blocked"), QObject::tr("%1 blocked"), Tone::warning);
-  say(count.cancelled, QObject::tr("1 cancelled"), QObject::tr("%1 cancelled"), Tone::quiet);
+  say(count.blocked, QObject::tr("1 node blocked"), QObject::tr("%1 nodes blocked"), Tone::warning);
+  say(count.cancelled, QObject::tr("1 node cancelled"), QObject::tr("%1 nodes cancelled"), Tone::quiet);
   if (has_error(evaluation.problems()) && tone < Tone::error)
     return {Tone::error, QObject::tr("Can't be computed: see Problems")};
   if (!parts.isEmpty()) return {tone, parts.join(QStringLiteral(" · "))};

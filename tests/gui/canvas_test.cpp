@@ -4,6 +4,8 @@
 #include <QContextMenuEvent>
 #include <QDir>
 #include <QFileInfo>
+#include <QHelpEvent>
+#include <QToolTip>
 
 #include "gui/canvas/clear_wires.h"
 #include "tests/gui/editor.h"
@@ -108,6 +110,54 @@ TEST(EditorCanvas, ANodeDroppedOnAWireIsPutIntoItAndAltDragTakesItOut) {
   editor.drag(at, at + QPoint(0, 200), Qt::AltModifier);
   EXPECT_EQ(editor.links(feet, "motion"), 0u);
   EXPECT_EQ(editor.document().nodes.at(editor.metrics).inputs.at("motion").links[0].node, editor.gait);
+}
+
+TEST(EditorCanvas, AltDragShowsTheLinkThatWillBeBeforeItIsLetGo) {
+  TwoNodes editor;
+  editor.drag(editor.port(editor.gait, "motion", false), editor.port(editor.metrics, "motion", true));
+  editor.drag_node(editor.metrics, {340, 0});
+  const std::string feet = editor.add("footskate");
+  editor.drag_node(feet, {20, 300});
+  const QPointF wire = (editor.canvas().scene().port_position({editor.gait, "motion", false}) +
+                        editor.canvas().scene().port_position({editor.metrics, "motion", true})) /
+                       2;
+  editor.drag_node(feet, wire - QPointF(90, 50));
+  ASSERT_EQ(editor.links(feet, "motion"), 1u);
+  const QPoint middle =
+      (editor.port(editor.gait, "motion", false) + editor.port(editor.metrics, "motion", true)) / 2;
+  const auto is_drawn = [&] {  // the link past the node, in the colour of what is under way
+    const QImage picture = editor.canvas().grab().toImage();
+    const QColor accent = editor.canvas().theme().accent;
+    for (int y = middle.y() - 3; y <= middle.y() + 3; ++y)
+      if (picture.pixelColor(middle.x(), y) == accent) return true;
+    return false;
+  };
+  bool before_release = false;
+  const QPoint at = editor.middle(feet);
+  editor_test::drag(editor.canvas(), at, at + QPoint(0, 200),
+                    {.keys = Qt::AltModifier, .meanwhile = [&] { before_release = is_drawn(); }});
+  EXPECT_TRUE(before_release);
+  EXPECT_EQ(editor.links(feet, "motion"), 0u);
+  editor.settle();
+  EXPECT_FALSE(is_drawn());  // now it is a link like any other
+}
+
+TEST(EditorCanvas, TipsTellOfNodesPortsAndLinks) {
+  TwoNodes editor;
+  editor.drag(editor.port(editor.gait, "motion", false), editor.port(editor.metrics, "motion", true));
+  editor.settle();
+  const auto tip = [&](QPoint at) {
+    QHelpEvent help(QEvent::ToolTip, at, editor.canvas().mapToGlobal(at));
+    QApplication::sendEvent(&editor.canvas(), &help);
+    return QToolTip::text();
+  };
+  const QString gait = QString::fromStdString(editor.gait), metrics = QString::fromStdString(editor.metrics);
+  EXPECT_TRUE(tip(editor.middle(editor.gait)).contains("<b>" + gait + "</b> · Gait"));
+  EXPECT_TRUE(tip(editor.port(editor.metrics, "contacts", true)).contains("may stay open"));
+  const QPoint middle =
+      (editor.port(editor.gait, "motion", false) + editor.port(editor.metrics, "motion", true)) / 2;
+  EXPECT_TRUE(tip(middle).contains(gait + ".motion</b> → <b>" + metrics + ".motion"))
+      << qPrintable(tip(middle));
 }
 
 TEST(EditorCanvas, DeleteReconnectsWhatItCan) {
