@@ -140,6 +140,9 @@ QPalette Theme::palette() const {
 
 QString Theme::style_sheet() const {
   const auto c = [](const QColor& color) { return color.name(); };
+  // Of what can't be moved now: between the groove and the words.
+  const QColor resting((line.red() + faint_text.red()) / 2, (line.green() + faint_text.green()) / 2,
+                       (line.blue() + faint_text.blue()) / 2);
   return QString(R"(
 QMainWindow::separator { background: %1; width: 4px; height: 4px; }
 QMainWindow::separator:hover { background: %5; }
@@ -210,7 +213,8 @@ QSlider::groove:horizontal { height: 4px; border-radius: 2px; background: %3; ma
 QSlider::sub-page:horizontal { height: 4px; border-radius: 2px; background: %5; margin: 0px 2px; }
 QSlider::handle:horizontal { width: 12px; height: 12px; margin: -5px 0px; border-radius: 6px; background: %9; border: 1px solid %7; }
 QSlider::handle:horizontal:hover { border-color: %5; }
-QSlider::sub-page:horizontal:disabled, QSlider::handle:horizontal:disabled { background: %7; }
+QSlider::sub-page:horizontal:disabled { background: %13; }
+QSlider::handle:horizontal:disabled { background: %13; border-color: %13; }
 QTreeView, QListView, QTableView { background: %8; border: 1px solid %3; border-radius: 4px; alternate-background-color: %2; }
 QTableView { gridline-color: %3; }
 QTreeView::item, QTableView::item { border: none; padding: 3px 8px; min-height: 16px; }
@@ -243,7 +247,7 @@ QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
 QScrollBar::add-page, QScrollBar::sub-page { background: none; }
 )")
       .arg(c(window), c(raised), c(line), c(text), c(accent), c(selection), c(faint_text), c(panel))
-      .arg(c(dark ? text : raised), c(good), c(warning), c(error));
+      .arg(c(dark ? text : raised), c(good), c(warning), c(error), c(resting));
 }
 
 const Theme& dark_theme() {

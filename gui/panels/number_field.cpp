@@ -25,7 +25,7 @@ class CalmSlider : public QSlider {
   void wheelEvent(QWheelEvent* event) override { event->ignore(); }
 };
 
-constexpr int line_width = 76, most_digits = 8;  // beside a slider
+constexpr int line_width = 76, least_line = 60, least_slider = 48, most_digits = 8;
 
 class NumberField : public ParamField {
  public:
@@ -40,7 +40,7 @@ class NumberField : public ParamField {
       slider_->setRange(0, whole() && span() <= slider_steps ? int(span()) : slider_steps);
       slider_->setAccessibleName(QObject::tr("%1 slider").arg(name));
       slider_->setFocusPolicy(Qt::StrongFocus);
-      slider_->setMinimumWidth(60);
+      slider_->setMinimumWidth(0);
       row->addWidget(slider_, 1);
       connect(slider_, &QSlider::sliderPressed, this, [this] { emit drag_started(); });
       connect(slider_, &QSlider::sliderReleased, this, [this] { emit drag_ended(); });
@@ -53,9 +53,10 @@ class NumberField : public ParamField {
     line_->installEventFilter(this);
     if (slider_) line_->setFixedWidth(line_width);
     row->addWidget(line_, slider_ ? 0 : 1);
-    auto* unit = new QLabel(QString::fromStdString(param.unit), this);
-    unit->setObjectName("unit");
-    if (slider_ || !param.unit.empty()) row->addWidget(unit);
+    unit_ = new QLabel(QString::fromStdString(param.unit), this);
+    unit_->setObjectName("unit");
+    unit_->setVisible(slider_ || !param.unit.empty());
+    row->addWidget(unit_);
     setFocusProxy(line_);
     connect(line_, &QLineEdit::editingFinished, this, [this] {
       if (line_->text() == shown_) return void(emit corrected());
@@ -79,11 +80,9 @@ class NumberField : public ParamField {
     line_->setCursorPosition(0);
     if (slider_) {
       // The name of a variable has the slider's room as well.
-      const bool number = value.is_number() || value.is_null();
-      slider_->setVisible(number);
-      line_->setMinimumWidth(line_width);
-      line_->setMaximumWidth(number ? line_width : QWIDGETSIZE_MAX);
-      line_->setAlignment(number ? Qt::AlignRight : Qt::AlignLeft);
+      number_ = value.is_number() || value.is_null();
+      show_slider();
+      line_->setAlignment(number_ ? Qt::AlignRight : Qt::AlignLeft);
       slider_->setEnabled(value.is_number());
       if (value.is_number() && !slider_->isSliderDown())
         slider_->setValue(
@@ -95,6 +94,10 @@ class NumberField : public ParamField {
   bool is_being_edited() const override { return line_->hasFocus() && line_->text() != shown_; }
 
  protected:
+  void resizeEvent(QResizeEvent* event) override {
+    ParamField::resizeEvent(event);
+    if (slider_ && !slider_->isSliderDown()) show_slider();
+  }
   // Up and down change the number by a step of the slider.
   bool eventFilter(QObject* watched, QEvent* event) override {
     if (event->type() == QEvent::KeyPress) {
@@ -115,6 +118,13 @@ class NumberField : public ParamField {
   }
 
  private:
+  // Where there is too little room for it to be of use, the number has it.
+  void show_slider() {
+    const bool shown = number_ && width() - line_width - unit_->width() >= least_slider;
+    slider_->setVisible(shown);
+    line_->setMinimumWidth(shown ? line_width : least_line);
+    line_->setMaximumWidth(shown ? line_width : QWIDGETSIZE_MAX);
+  }
   bool whole() const { return type_.kind == ParamType::Kind::integer; }
   double span() const { return type_.soft_max - type_.soft_min; }
   double step() const {
@@ -148,8 +158,9 @@ class NumberField : public ParamField {
   ParamType type_;
   QSlider* slider_ = nullptr;
   QLineEdit* line_;
+  QLabel* unit_ = nullptr;
   QString shown_;
-  bool showing_ = false;
+  bool showing_ = false, number_ = true;  // and no variable's name
 };
 
 }  // namespace

@@ -156,6 +156,9 @@ class RangeField : public ParamField {
   bool is_being_edited() const override {
     return (start_->hasFocus() || end_->hasFocus()) && start_->text() + ":" + end_->text() != shown_;
   }
+  void mark_wrong(bool wrong) override {
+    for (QLineEdit* line : {start_, end_}) mark(line, wrong && (!wrong_ || wrong_ == line));
+  }
 
  private:
   void send() {
@@ -165,6 +168,7 @@ class RangeField : public ParamField {
         start_->text().trimmed().isEmpty() ? std::optional<double>(0) : calculated(start_->text());
     const bool open = end_->text().trimmed().isEmpty() || end_->text().trimmed() == "end";
     const auto last = open ? std::optional<double>(0) : calculated(end_->text());
+    wrong_ = !first ? start_ : !last ? end_ : nullptr;
     if (!first || !last) {
       emit wrong(
           tr("“%1” is no frame's number. Wanted is the first frame and the one after the last; an open "
@@ -181,6 +185,7 @@ class RangeField : public ParamField {
   }
   ParamType type_;
   QLineEdit *start_, *end_;
+  QLineEdit* wrong_ = nullptr;  // the one that is no number; none: both together don't fit
   QString shown_;
 };
 
@@ -192,13 +197,16 @@ bool is_choice_or_number(const ParamType& type) {
 
 }  // namespace
 
+void ParamField::mark(QWidget* part, bool wrong) {
+  if (part->property("mistake").toBool() == wrong) return;
+  part->setProperty("mistake", wrong);
+  part->style()->unpolish(part);
+  part->style()->polish(part);
+}
+
 void ParamField::mark_wrong(bool wrong) {
-  for (QWidget* part : findChildren<QWidget*>(Qt::FindDirectChildrenOnly)) {
-    if (!qobject_cast<QLineEdit*>(part) && !qobject_cast<QComboBox*>(part)) continue;
-    part->setProperty("mistake", wrong);
-    part->style()->unpolish(part);
-    part->style()->polish(part);
-  }
+  for (QWidget* part : findChildren<QWidget*>(Qt::FindDirectChildrenOnly))
+    if (qobject_cast<QLineEdit*>(part) || qobject_cast<QComboBox*>(part)) mark(part, wrong);
 }
 
 ParamField* make_field(const Param& param, const FieldContext& context, QWidget* parent) {

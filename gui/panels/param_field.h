@@ -31,6 +31,9 @@ class ParamField : public QWidget {
   // Marks what stands in it as not taken over, or no longer: the look, not the words.
   virtual void mark_wrong(bool wrong);
 
+ protected:
+  static void mark(QWidget* part, bool wrong);
+
  signals:
   void edited(const Json& value);
   void drag_started();

@@ -9,6 +9,7 @@
 #include <QMenu>
 #include <QScrollArea>
 #include <QStackedLayout>
+#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <set>
@@ -204,7 +205,7 @@ void ParameterPanel::build(const NodeType& known) {
     if (!is_wide(param))
       label_width = std::max(label_width,
                              QFontMetrics(bold).horizontalAdvance(QString::fromStdString(param.name) + " ↗"));
-  label_width = std::min(label_width + 6, most_label);
+  label_width_ = std::min(label_width + 6, most_label);
   for (const Param& param : known.params) {
     const std::string name = param.name;
     Row row;
@@ -214,7 +215,7 @@ void ParameterPanel::build(const NodeType& known) {
     grid->setHorizontalSpacing(6);
     grid->setVerticalSpacing(2);
     row.label = new QLabel(QString::fromStdString(name), row.line);
-    row.label->setFixedWidth(label_width);
+    row.label->setFixedWidth(label_width_);
     row.label->setToolTip(QString::fromStdString(param.help));
     row.field = make_field(param, context, row.line);
     row.field->setObjectName("param_" + QString::fromStdString(name));
@@ -330,14 +331,30 @@ void ParameterPanel::refresh(bool another) {
     row.label->setFont(font);
     const std::string published = published_as(name);
     row.name = QString::fromStdString(name) + (published.empty() ? "" : " ↗");
+  }
+  fit_labels();
+  refresh_state();
+}
+
+// The column of names gives way where the dock is narrow; what is cut ends in "…" and has a tool tip.
+void ParameterPanel::fit_labels() {
+  const NodeType* known = type();
+  const int wide = std::min(label_width_, std::max(least_label, some_->width() * 36 / 100));
+  for (auto& [name, row] : rows_) {
+    const Param* param = known ? known->find_param(name) : nullptr;
+    if (!param) continue;
+    if (!is_wide(*param)) row.label->setFixedWidth(wide);
     row.label->setText(is_wide(*param)
                            ? row.name
-                           : QFontMetrics(font).elidedText(row.name, Qt::ElideRight, row.label->width()));
-    row.label->setToolTip(row.label->text() == row.name
-                              ? QString::fromStdString(param->help)
-                              : row.name + "\n" + QString::fromStdString(param->help));
+                           : QFontMetrics(row.label->font()).elidedText(row.name, Qt::ElideRight, wide));
+    const QString help = QString::fromStdString(param->help);
+    row.label->setToolTip(row.label->text() == row.name ? help : row.name + "\n" + help);
   }
-  refresh_state();
+}
+
+void ParameterPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  fit_labels();
 }
 
 void ParameterPanel::refresh_state() {
@@ -392,9 +409,9 @@ void ParameterPanel::tell_mistake(const std::string& param, const QString& why) 
   row.field->setAccessibleDescription(why);
   if (news) mark_problems();
   if (why.isEmpty()) return;
-  row.line->updateGeometry();
-  scroll_->widget()->layout()->activate();
-  scroll_->ensureWidgetVisible(row.mistake, 0, 10);
+  // Once the sentence has its lines.
+  QTimer::singleShot(0, row.mistake,
+                     [this, seen = row.mistake] { scroll_->ensureWidgetVisible(seen, 0, 4); });
 }
 
 // Escape: what stands there is the value again. False where it is already.

@@ -28,6 +28,7 @@ class ParameterPanel : public QWidget {
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   struct Row {
@@ -42,6 +43,7 @@ class ParameterPanel : public QWidget {
   void show_node();
   void build(const NodeType& type);
   void refresh(bool another = false);  // another node: nothing that is being typed stays
+  void fit_labels();
   void refresh_state();
   int help_height() const;
   void tell_help(const QString& text);
@@ -61,6 +63,7 @@ class ParameterPanel : public QWidget {
   std::string node_;       // shown
   std::string node_type_;  // whose rows are built
   bool of_other_page_ = false;
+  int label_width_ = 0;  // of the longest name
   std::map<std::string, Row> rows_;
   QWidget* none_;
   QWidget* some_;

@@ -170,9 +170,7 @@ class TableField : public ParamField {
     value_ = Json();
   }
   void mark_wrong(bool wrong) override {
-    table_->setProperty("mistake", wrong);
-    table_->style()->unpolish(table_);
-    table_->style()->polish(table_);
+    mark(table_, wrong);
     if (!wrong) say_wrong(-1, 0, {});
   }
 

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <QAbstractButton>
 #include <QDir>
 #include <QDockWidget>
 #include <QFile>
 #include <QHelpEvent>
+#include <QLabel>
+#include <QScrollArea>
 #include <QToolTip>
 #include <QTreeWidget>
 
@@ -282,6 +285,35 @@ TEST(EditorParameters, WhatIsTooLongEndsInAnEllipsisAndHasAToolTip) {
   QApplication::sendEvent(note, &help);
   EXPECT_TRUE(QToolTip::text().contains(all.trimmed())) << QToolTip::text().toStdString();
   QToolTip::hideText();
+}
+
+// Of every node type: no row is wider than the dock, no button's words are cut, and a label's have a tool
+// tip.
+TEST(EditorParameters, EveryRowOfEveryNodeFitsADockOfTheLeastWidth) {
+  Editor editor;
+  auto* dock = editor.window.findChild<QDockWidget*>("dock_parameters");
+  dock->setFloating(true);
+  dock->resize(300, 700);
+  for (const std::string& name : editor.registry.names()) {
+    SCOPED_TRACE(name);
+    editor.canvas().add(name, {0, 0});
+    editor.settle();
+    auto* room = dock->findChild<QScrollArea*>("parameter_rows");
+    ASSERT_TRUE(room);
+    const QRect seen = room->viewport()->rect();
+    for (QWidget* part : room->widget()->findChildren<QWidget*>()) {
+      if (!part->isVisible()) continue;
+      const QPoint left = part->mapTo(room->viewport(), QPoint(0, 0));
+      EXPECT_GE(left.x(), 0) << part->metaObject()->className();
+      EXPECT_LE(left.x() + part->width(), seen.width() + 1)
+          << part->metaObject()->className() << " " << part->accessibleName().toStdString();
+      if (auto* button = qobject_cast<QAbstractButton*>(part); button && !button->text().isEmpty())
+        EXPECT_GE(button->width(), button->fontMetrics().horizontalAdvance(button->text()))
+            << button->accessibleName().toStdString();
+      if (auto* label = qobject_cast<QLabel*>(part); label && label->text().endsWith("…"))
+        EXPECT_FALSE(label->toolTip().isEmpty()) << label->text().toStdString();
+    }
+  }
 }
 
 TEST(EditorFiles, AFilterHidesWhatHasNothingAndSaysSoOnce) {

@@ -49,17 +49,6 @@ void retype(Shot& shot, QLineEdit* line, const QString& text, bool enter = true)
   shot.wait(250);
 }
 
-void every_node(const Theme& theme, const QDir& into, const QString& end) {
-  Shot shot(theme, into);
-  shot.text(R"("walk": {"type": "Load", "params": {"file": "clips/walk.bvh"}})");
-  Tall tall(shot, 900);
-  for (const std::string& name : shot.registry.names()) {
-    shot.canvas().add(name, {0, 0});
-    shot.select(shot.session().current());
-    shot.take_widget("node_" + QString::fromStdString(name) + end, tall.dock);
-  }
-}
-
 // Tables: edits, keys, pins, weights and regions, whole; a row that doesn't fit; a cell that is typed into.
 void tables(const Theme& theme, const QDir& into, const QString& end) {
   {
@@ -134,6 +123,8 @@ void typing(const Theme& theme, const QDir& into, const QString& end) {
   retype(shot, field(shot, "range")->findChild<QLineEdit*>(), "soon");
   shot.take_widget("parameter_mistake" + end, tall.dock);
   shot.select("a_walk_that_was_smoothed_twice_and_held_on_the_floor");
+  shot.canvas().setFocus();
+  shot.wait(150);
   shot.take_widget("parameters_long" + end, tall.dock);
   shot.select("soft");
   const auto focus = [&](const char* name, QWidget* at) {
@@ -332,7 +323,6 @@ void files(const Theme& theme, const QDir& into, const QString& end) {
 }  // namespace
 
 void panel_pictures(const Theme& theme, const QDir& into, const QString& end) {
-  if (qEnvironmentVariableIsSet("ALL_NODES")) return every_node(theme, into, end);
   tables(theme, into, end);
   typing(theme, into, end);
   strangers(theme, into, end);
