@@ -25,6 +25,7 @@
 namespace kinegraph {
 namespace {
 
+constexpr int most_told = 3;                       // problems of a node, in the panel
 constexpr int least_label = 80, most_label = 140;  // a column as wide as its longest name
 
 QLabel* faint_label(const QString& text, QWidget* parent) {
@@ -358,7 +359,7 @@ void ParameterPanel::resizeEvent(QResizeEvent* event) {
 }
 
 void ParameterPanel::refresh_state() {
-  QString text;
+  std::vector<std::pair<Severity, QString>> told;
   std::set<std::string> said;
   const auto say = [&](const Diagnostic& problem) {
     const Severity severity = shown_severity(problem);
@@ -376,12 +377,21 @@ void ParameterPanel::refresh_state() {
                      (problem.param.empty() ? "\n" + problem.message : std::string()))
              .second)
       return;
-    text += QString("<div style='color:%1'>%2</div>").arg(color.name(), line);
+    told.emplace_back(problem.severity, QString("<div style='color:%1'>%2</div>").arg(color.name(), line));
   };
   for (const Diagnostic& problem : session_.problems())
     if (problem.node == node_) say(problem);
   if (const NodeStatus* status = evaluation_.status(node_))
     for (const Diagnostic& problem : status->diagnostics) say(problem);
+  // The worst first, and not so many that the parameters have no room.
+  QString text;
+  int left = most_told;
+  for (const Severity severity : {Severity::error, Severity::warning, Severity::info})
+    for (const auto& [own, words] : told)
+      if (own == severity && left-- > 0) text += words;
+  if (left < 0)
+    text += QString("<div style='color:%1'>%2</div>")
+                .arg(theme_->faint_text.name(), tr("… and %1 more, see Problems").arg(-left));
   state_->setText(text);
   state_->setVisible(!text.isEmpty());
   mark_problems();

@@ -7,6 +7,7 @@
 #include <QHelpEvent>
 #include <QLabel>
 #include <QScrollArea>
+#include <QTableWidget>
 #include <QToolTip>
 #include <QTreeWidget>
 
@@ -314,6 +315,31 @@ TEST(EditorParameters, EveryRowOfEveryNodeFitsADockOfTheLeastWidth) {
         EXPECT_FALSE(label->toolTip().isEmpty()) << label->text().toStdString();
     }
   }
+}
+
+TEST(EditorParameters, ANodeWithManyProblemsKeepsRoomForItsParameters) {
+  Editor editor;
+  const QString path = editor.folder.filePath("many.kg.json");
+  QFile file(path);
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  QByteArray pins;
+  for (int i = 0; i < 6; ++i)
+    pins += QByteArray(i ? "," : "") + R"({"joint": "LeftHand", "position": [2e6, 0, 0]})";
+  file.write(
+      R"({"format": "kinegraph", "schema": 1, "nodes": {"walk": {"type": "Gait"}, "pin": {"type": "Pin",
+    "inputs": {"motion": "walk.motion"}, "params": {"pins": [)" +
+      pins + "]}}}}");
+  file.close();
+  ASSERT_TRUE(editor.window.open(path));
+  editor.window.show_dock("Parameters");
+  auto* state = editor.window.findChild<QLabel*>("node_state");
+  editor.session().select({"pin"}, "pin");
+  editor.settle();
+  EXPECT_EQ(state->text().count("<div"), 4) << state->text().toStdString();
+  EXPECT_TRUE(state->text().contains("and 3 more")) << state->text().toStdString();
+  // The table that holds them is marked.
+  auto* pinned = editor.window.findChild<QWidget*>("param_pins")->findChild<QTableWidget*>();
+  EXPECT_TRUE(pinned->property("mistake").toBool());
 }
 
 TEST(EditorFiles, AFilterHidesWhatHasNothingAndSaysSoOnce) {
