@@ -307,6 +307,9 @@ void Viewer::frame_all() {
   stage_->camera().frame_closely(points, thickness, stage_->shape(),
                                  std::min(0.25, caption_height / std::max(1.0, stage_->cell_height())));
   framed_camera_ = stage_->camera();
+  framed_size_ = 0;
+  for (const Shown& one : shown_)
+    if (one.motion) framed_size_ = std::max(framed_size_, one.motion->size);
   stage_->camera_changed();
   update_scene();
 }
@@ -438,7 +441,13 @@ void Viewer::take_values() {
     any = any || one.motion;
   }
   emit shown_changed();
-  if (any && !framed_) {
+  // A face after a body would be a dot, and the other way round a knee.
+  constexpr double far_larger = 2.5;
+  double size = 0;
+  for (const Shown& one : shown_)
+    if (one.motion) size = std::max(size, one.motion->size);
+  const bool of_another_size = size > far_larger * framed_size_ || size * far_larger < framed_size_;
+  if (any && (!framed_ || of_another_size)) {
     framed_ = true;
     frame_all();
   }

@@ -112,6 +112,7 @@ class Viewer : public QWidget {
   std::map<QString, Pins> pins_of_page_;
   SkinBoxes skins_;
   OrbitCamera framed_camera_;  // as frame_all left it
+  double framed_size_ = 0;     // m, of the largest body then
   std::string looked_at_;      // the node shown without pins
   std::vector<Target> wanted_;
   std::vector<Shown> shown_;

@@ -110,6 +110,15 @@ void viewer_pictures(const Theme& theme, const QDir& into, const QString& end) {
   }
   {
     Shot shot(theme, into);
+    shot.open("face");
+    shot.select("brows");
+    shot.window.playback().set_time(0.5);
+    shot.viewer().frame_all();
+    shot.wait();
+    shot.take_dock("viewer_markers" + end, "Viewer");
+  }
+  {
+    Shot shot(theme, into);
     shot.open("cartoon_walk");
     shot.select("planted");
     shot.window.playback().set_time(0.4);
