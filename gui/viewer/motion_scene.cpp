@@ -55,6 +55,14 @@ SceneFigure figure_of(const ShownMotion& motion, int frame, const SceneLooks& lo
                      std::min(0.85, 20.0 * std::abs(static_cast<double>(stretch) - 1)));
     }
     const bool tip = bone.joint < 0;
+    if (bone.beyond > 0) {
+      const QVector3D way = (to - from).normalized();
+      if (way.isNull()) continue;
+      const float round = 0.88f * bone.radius;
+      figure.capsules.push_back(
+          {to + 0.7f * round * way, to + (bone.beyond - bone.radius) * way, round, bone.radius, color});
+      continue;
+    }
     if (bone.head) {
       const QVector3D way = to - from;
       const float inside = std::min(0.3f * way.length(), 0.8f * bone.radius);

@@ -7,6 +7,7 @@
 #include "gui/viewer/marker_links.h"
 #include "headless/draws/skeleton_figure.h"
 #include "nodes/feet/detect_contacts.h"
+#include "nodes/motion/body.h"
 #include "nodes/motion/kinematics.h"
 #include "nodes/motion/points.h"
 
@@ -80,6 +81,19 @@ void find_bones(ShownMotion& shown, const Skeleton& skeleton, const Figure& figu
   }
 }
 
+// A skeleton may end where the head begins: then the head stands on its last joint, in line with the neck.
+void find_head(ShownMotion& shown, const Skeleton& skeleton, const Figure& figure) {
+  for (const ShownMotion::Bone& bone : shown.bones)
+    if (bone.head) return;
+  const Body body = find_body(skeleton);
+  const int head = body.head >= 0 || body.neck.empty() ? body.head : body.neck.back();
+  if (head <= 0) return;
+  const auto height = static_cast<float>(figure.height());
+  const int parent = skeleton.joints[static_cast<std::size_t>(head)].parent;
+  shown.bones.push_back(
+      {parent, head, 0.042f * height, ShownMotion::Side::middle, 0, -1, true, 0.11f * height});
+}
+
 void find_box(ShownMotion& shown) {
   const float inf = std::numeric_limits<float>::infinity();
   shown.low = {inf, inf, inf};
@@ -135,6 +149,7 @@ std::shared_ptr<const ShownMotion> of_motion(const Motion& motion, ValuePtr valu
   const Figure figure(skeleton);
   shown->size = figure.height();
   find_bones(*shown, skeleton, figure);
+  find_head(*shown, skeleton, figure);
   shown->points = skeleton.size() + static_cast<int>(skeleton.ends.size());
   const WorldMotion world = world_motion(motion, work);
   const std::size_t points = static_cast<std::size_t>(shown->points);

@@ -25,6 +25,7 @@ struct ShownMotion {
     float rest_length = 0;  // m
     int joint = -1;         // whose link it is: the joint `to` is, -1 for an End Site
     bool head = false;      // drawn as a head: thick, and off the neck
+    float beyond = 0;       // m: a head whose tip isn't known goes on past `to` by so much
   };
 
   ValuePtr value;  // what it was made from, kept alive

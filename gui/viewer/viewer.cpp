@@ -42,6 +42,12 @@ void add_points(const ShownMotion& motion, int first, int last, Ground ground, s
       const ShownMotion::Point3& p = motion.at(frame, point);
       if (!std::isnan(p.x)) all.push_back(QVector3D(p.x, p.y, p.z) - from);
     }
+    for (const ShownMotion::Bone& bone : motion.bones)
+      if (bone.beyond > 0) {
+        const ShownMotion::Point3 &a = motion.at(frame, bone.from), &b = motion.at(frame, bone.to);
+        const QVector3D tip(b.x, b.y, b.z), way = tip - QVector3D(a.x, a.y, a.z);
+        all.push_back(tip + bone.beyond * way.normalized() - from);
+      }
   }
 }
 

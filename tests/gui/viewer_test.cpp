@@ -4,6 +4,7 @@
 
 #include <QColor>
 #include <QPainter>
+#include <algorithm>
 #include <cmath>
 
 #include "graph/file/read.h"
@@ -277,6 +278,20 @@ TEST(Viewer, FramesAllOfABodyAsLargeAsItFits) {
     EXPECT_GT(top, 0.11);  // the caption stands there
     EXPECT_LT(bottom, 0.96);
     EXPECT_TRUE(bottom - top > 0.75 || right - left > 0.75) << bottom - top << " " << right - left;
+  }
+}
+
+TEST(Viewer, GivesEveryBodyAHead) {
+  KINEGRAPH_NEEDS_MOCAP();
+  for (const char* clip : {"xia/angry_13_000.bvh", "bandai/dataset-1_kick_normal_001.bvh",
+                           "accad/Male1_B3_Walk.bvh", "cmu/bvh/08_01.bvh", "gltf/CesiumMan.glb"}) {
+    ViewingWindow window(
+        R"({"format": "kinegraph", "schema": 1, "nodes": {"clip": {"type": "Load", "params": {"file": ")" +
+        mocap(clip) + R"("}}}})");
+    ASSERT_TRUE(window.shows_motions()) << clip;
+    const auto& bones = window.viewer->shown().front().motion->bones;
+    EXPECT_EQ(std::count_if(bones.begin(), bones.end(), [](const auto& bone) { return bone.head; }), 1)
+        << clip;
   }
 }
 
