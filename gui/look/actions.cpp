@@ -126,7 +126,8 @@ std::span<const ActionRow> all_actions() {
 
 QString menu_text(const char* name) {
   for (const ActionRow& row : rows)
-    if (std::string_view(row.name) == name) return QObject::tr(row.text) + "\t" + QObject::tr(row.keys);
+    if (std::string_view(row.name) == name)
+      return QString(QObject::tr(row.text)).remove('&') + "\t" + QObject::tr(row.keys);
   return QString::fromUtf8(name);
 }
 

@@ -232,7 +232,8 @@ QTabBar::close-button { image: url(:/kinegraph/close.png); border-radius: 3px; m
 QTabBar#pages::tab { padding-right: 4px; }
 QTabBar::close-button:hover { background: %3; }
 QTabBar#pages { background: %1; }
-QTabBar::scroller { width: 28px; }
+QTabBar::scroller { width: 44px; }
+QTabBar::tear { width: 0px; border: none; }
 QTabBar QToolButton { background: %1; border: 1px solid %3; border-radius: 3px; margin: 4px 0px; padding: 0px; }
 QTabBar QToolButton:hover { background: %2; border-color: %5; }
 QTabBar::tab:hover { color: %4; }

@@ -31,11 +31,20 @@ int ask(QMessageBox& box) {
   for (QLabel* label : box.findChildren<QLabel*>()) label->setTextFormat(Qt::PlainText);
   if (auto* words = box.findChild<QLabel*>("qt_msgbox_informativelabel")) {
     words->ensurePolished();
+    const QFontMetrics metrics = words->fontMetrics();
+    QStringList lines = words->text().split('\n');
     int width = narrowest_message;
-    for (const QString& line : box.informativeText().split('\n'))
-      width = std::max(width, balanced_width(words->fontMetrics(), line, widest_message));
+    for (const QString& line : lines) width = std::max(width, balanced_width(metrics, line, widest_message));
+    // A shorter paragraph isn't set by its own width: its last two words stay together.
+    for (QString& line : lines)
+      if (const qsizetype space = line.lastIndexOf(' '); space > 0 && metrics.horizontalAdvance(line) > width)
+        line[space] = QChar::Nbsp;
+    words->setText(lines.join('\n'));
     words->setFixedWidth(width + 4);
-    if (auto* grid = qobject_cast<QGridLayout*>(box.layout())) grid->setAlignment(words, Qt::AlignLeft);
+    if (auto* grid = qobject_cast<QGridLayout*>(box.layout())) {
+      grid->setAlignment(words, Qt::AlignLeft);
+      grid->setContentsMargins(16, 14, 16, 14);
+    }
   }
   return box.exec();
 }

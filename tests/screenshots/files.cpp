@@ -1,11 +1,13 @@
 // Pictures of what happens to files: those that are gone, that others change, that can't be written, and many
 // at once.
+#include <sys/fsuid.h>
+#include <unistd.h>
+
 #include <QFileDialog>
 #include <QMenu>
 #include <QMenuBar>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QTabBar>
 #include <filesystem>
 #include <fstream>
 
@@ -73,6 +75,26 @@ void dialogs(const Theme& theme, const QDir& into, const QString& end) {
                   [&] { ask_for_folder(&shot.window, "Look in a folder", project.path); });
   shot.session().select({"walk", "sneak"}, "sneak");
   shot.take_popup("collapse_dialog" + end, [&] { shot.window.action("collapse")->trigger(); });
+}
+
+void unsavable(const Theme& theme, const QDir& into, const QString& end) {
+  Project project;
+  const QString path = project.file("pipelines/sneakify.kg.json"), folder = project.file("pipelines");
+  Shot shot(theme, into);
+  shot.window.open(path);
+  shot.wait();
+  shot.session().perform(
+      [](const Document& d, const Registry&) { return set_note(d, d.nodes.begin()->first, "calmer"); });
+  // Root may write everywhere: somebody else tries.
+  QFile::setPermissions(folder, QFile::ReadOwner | QFile::ExeOwner | QFile::ReadOther | QFile::ExeOther);
+  const uid_t before = ::geteuid();
+  ::setfsuid(before ? before : 65534);
+  QTimer::singleShot(300, [before] { ::setfsuid(before); });  // it was tried by then
+  shot.take_popup("save_read_only" + end, [&] { shot.window.action("save")->trigger(); });
+  ::setfsuid(before);
+  QDir(folder).removeRecursively();
+  shot.wait(1200);
+  shot.take_popup("save_failed" + end, [&] { shot.window.action("save")->trigger(); });
 }
 
 void gone(const Theme& theme, const QDir& into, const QString& end) {
@@ -158,18 +180,18 @@ void of_others(const Theme& theme, const QDir& into, const QString& end) {
 void long_work(const Theme& theme, const QDir& into, const QString& end) {
   {
     Shot shot(theme, into);
-    shot.text(R"("long_walk": {"type": "Gait", "params": {"seconds": 150}},
-      "long_sneak": {"type": "Gait", "params": {"seconds": 140, "gait": "sneak"}},
+    shot.text(R"("long_walk": {"type": "Gait"}, "long_sneak": {"type": "Gait", "params": {"gait": "sneak"}},
       "warp": {"type": "TimeWarp", "inputs": {"source": "long_walk.motion", "reference": "long_sneak.motion"}},
       "out": {"type": "Export", "params": {"file": "in_step.bvh"}, "inputs": {"motion": "warp.warped"}})");
-    shot.session().perform(
-        [](const Document& d, const Registry& r) { return set_param(d, r, "long_walk", "seconds", 170.0); });
+    for (const char* name : {"long_walk", "long_sneak"})
+      shot.session().perform(
+          [name](const Document& d, const Registry& r) { return set_param(d, r, name, "seconds", 400.0); });
     shot.window.action("run")->trigger();
     QElapsedTimer clock;
     for (clock.start(); clock.elapsed() < 30000;) {
       QApplication::processEvents(QEventLoop::AllEvents, 20);
       const NodeStatus* warp = shot.window.evaluation().status("warp");
-      if (warp && warp->state == NodeStatus::State::running && warp->progress > 0.3) break;
+      if (warp && warp->state == NodeStatus::State::running && warp->progress > 0.15) break;
     }
     shot.take("run_under_way" + end);
     shot.window.action("cancel")->trigger();
@@ -270,6 +292,7 @@ void remembered(const Theme& theme, const QDir& into, const QString& end) {
 
 void file_pictures(const Theme& theme, const QDir& into, const QString& end) {
   dialogs(theme, into, end);
+  unsavable(theme, into, end);
   gone(theme, into, end);
   of_others(theme, into, end);
   long_work(theme, into, end);

@@ -167,13 +167,6 @@ void refusals(const Theme& theme, const QDir& into, const QString& end) {
   }
   {
     Shot shot(theme, into);
-    const QString path = shot.text(R"("gait": {"type": "Gait"})");
-    shot.canvas().add("Filter", {260, 0});
-    QDir(QFileInfo(path).absolutePath()).removeRecursively();
-    shot.take_popup("save_failed" + end, [&] { shot.window.action("save")->trigger(); });
-  }
-  {
-    Shot shot(theme, into);
     QFile newer(shot.in_shot("newer.kg.json"));
     if (newer.open(QIODevice::WriteOnly))
       newer.write(R"({"format": "kinegraph", "schema": 99, "nodes": {"gait": {"type": "Gait"}}})");
