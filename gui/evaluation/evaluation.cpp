@@ -326,19 +326,26 @@ void Evaluation::deliver_stills(const Run& run, const std::vector<std::string>& 
 
 // What failed, was mended and isn't looked at any more must not stand there as failed.
 void Evaluation::find_outdated(const Document& document, Result& result) {
+  // What is wrong with a node may be another node's doing, such as one that writes the same file.
+  const auto as_it_is = [&](const std::string& name) {
+    std::string text = described(document, name);
+    if (const auto found = result.left_out.find(name); found != result.left_out.end())
+      for (const Diagnostic& problem : found->second) text += problem.message;
+    return text;
+  };
   for (auto* known : {&failed_as_, &ran_as_})
     std::erase_if(*known, [&](const auto& entry) {
-      if (described(document, entry.first) == entry.second) return false;
+      if (as_it_is(entry.first) == entry.second) return false;
       result.outdated.push_back(entry.first);
       return true;
     });
   for (const auto& [name, run] : result.log.nodes) {
     if (run.state == NodeState::failed || run.state == NodeState::blocked)
-      failed_as_[name] = described(document, name);
+      failed_as_[name] = as_it_is(name);
     else if (run.state == NodeState::done && result.effects && run.outputs.empty())
-      ran_as_[name] = described(document, name);
+      ran_as_[name] = as_it_is(name);
   }
-  for (const auto& [name, diagnostics] : result.left_out) failed_as_[name] = described(document, name);
+  for (const auto& [name, diagnostics] : result.left_out) failed_as_[name] = as_it_is(name);
 }
 
 // Files that are missing are known without reading them, and what is blocked follows from that.

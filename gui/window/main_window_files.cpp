@@ -297,7 +297,7 @@ void MainWindow::ran_effects() {
   for (const auto& [name, node] : log.nodes)
     failed_nodes += node.state == NodeState::failed || node.state == NodeState::blocked;
   for (const Diagnostic& problem : evaluation_.problems()) text += problem_text(problem) + " ";
-  if (log.stopped) text = tr("The run was cancelled.");
+  if (log.stopped) text = tr("The run was cancelled. ") + text;
   if (failed_nodes)
     text += failed_nodes == 1 ? tr("1 node failed or was blocked.")
                               : tr("%1 nodes failed or were blocked.").arg(failed_nodes);

@@ -161,6 +161,29 @@ TEST(EditorEvaluation, WhatIsWrongStandsAsideAndTheRestRuns) {
   EXPECT_EQ(editor.window.evaluation().status(feet)->state, NodeStatus::State::incomplete);
 }
 
+TEST(EditorEvaluation, WhatIsWrongThroughAnotherNodeIsMendedByItsRemoval) {
+  Editor editor;
+  editor.session().open_text(R"({"format": "kinegraph", "schema": 1, "nodes": {
+    "walk": {"type": "Gait"},
+    "out": {"type": "Export", "params": {"file": "walk.bvh"}, "inputs": {"motion": "walk.motion"}}}})",
+                             {});
+  editor.session().select({"out"}, "out");
+  ASSERT_TRUE(editor.wait_for_evaluation());
+  const auto failed = [&] {
+    const NodeStatus* status = editor.window.evaluation().status("out");
+    return status && status->state == NodeStatus::State::failed;
+  };
+  EXPECT_FALSE(failed());
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_D, Qt::ControlModifier);  // its copy writes the same file
+  ASSERT_TRUE(editor.wait_for_evaluation());
+  EXPECT_TRUE(failed());
+  editor.canvas().setFocus();
+  editor.key(Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(editor.wait_for_evaluation());
+  EXPECT_FALSE(failed());
+}
+
 TEST(EditorEvaluation, ANodeThatWaitsForAnotherSaysSo) {
   Editor editor;
   editor.session().open_text(R"({"format": "kinegraph", "schema": 1, "nodes": {
