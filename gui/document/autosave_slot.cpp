@@ -1,13 +1,15 @@
 #include "gui/document/autosave_slot.h"
 
 #include <QDir>
+#include <QFile>
 #include <QFileInfo>
 #include <QStandardPaths>
 
 namespace kinegraph {
 namespace {
 
-constexpr int most_slots = 16;
+constexpr int most_slots = 16, most_aside = 9;
+constexpr auto aside = ".autosave.found";
 
 QString folder_in(QStandardPaths::StandardLocation location) {
   const QString folder = QStandardPaths::writableLocation(location);
@@ -26,7 +28,18 @@ bool is_unsaved_work(const QString& autosave, const QString& graph) {
   return graph.isEmpty() || file.lastModified() >= QFileInfo(graph).lastModified();
 }
 
+QString numbered_aside(const QString& autosave, int number) {
+  return autosave + ".found" + (number > 1 ? QString::number(number) : QString());
+}
+
 }  // namespace
+
+QString AutosaveSlot::aside_of(const QString& autosave) {
+  if (autosave.contains(aside)) return autosave;
+  int number = 1;
+  while (number < most_aside && QFile::exists(numbered_aside(autosave, number))) ++number;
+  return numbered_aside(autosave, number);
+}
 
 AutosaveSlot::AutosaveSlot(const QString& path, const QString& folder) : path_(path), folder_(folder) {
   for (number_ = 0; number_ + 1 < most_slots; ++number_) {
@@ -69,7 +82,8 @@ QStringList AutosaveSlot::left_behind() const {
       // Of another editor's work it says nothing that this one saved the graph since.
       if (is_unsaved_work(fresh, slot == 0 ? path_ : QString())) here << fresh;
       // What was put aside was never answered: that the graph was saved since says nothing about it either.
-      if (is_unsaved_work(fresh + aside, {})) here << fresh + aside;
+      for (int number = most_aside; number > 0; --number)
+        if (const QString kept = numbered_aside(fresh, number); is_unsaved_work(kept, {})) here << kept;
     }
     if (!here.isEmpty() && (slot == number_ || lock_of(slot)->tryLock(0))) found << here;
   }

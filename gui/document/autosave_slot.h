@@ -22,8 +22,9 @@ class AutosaveSlot {
   // What ended sessions left, the freshest of each slot first: files of slots that nobody holds any more, and
   // its own.
   QStringList left_behind() const;
-  // After an autosave's name: it was put aside, because a session goes on in its slot.
-  static constexpr auto aside = ".found";
+  // An autosave is put aside, because a session goes on in its slot: under a name that is free, as several
+  // may wait for an answer. Its name where it lies aside already.
+  static QString aside_of(const QString& autosave);
 
  private:
   QString file_of(int slot) const;

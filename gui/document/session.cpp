@@ -207,9 +207,8 @@ bool Session::autosave_found() const {
 void Session::keep_found() {
   const QStringList left = slot().left_behind();
   if (left.isEmpty()) return;
-  page_->found = left.front();
-  if (page_->found.endsWith(AutosaveSlot::aside)) return;
-  page_->found += AutosaveSlot::aside;
+  page_->found = AutosaveSlot::aside_of(left.front());
+  if (page_->found == left.front()) return;
   QFile::remove(page_->found);
   QFile::rename(left.front(), page_->found);
 }

@@ -136,7 +136,10 @@ void MainWindow::offer_autosave() {
           tell(session_.recover(), tr("The work that was found can't be read."));
           canvas_->frame_all();
         }},
-       {tr("Throw it away"), [this] { session_.discard_found(); }}});
+       {tr("Throw it away"), [this] {
+          session_.discard_found();
+          if (!session_.is_modified()) offer_autosave();  // several sessions may have left theirs
+        }}});
 }
 
 void MainWindow::new_graph() {

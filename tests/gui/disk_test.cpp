@@ -12,6 +12,7 @@
 #include <QTimer>
 #include <QToolButton>
 #include <QTreeWidget>
+#include <fstream>
 
 #include "graph/edit.h"
 #include "graph/file/write.h"
@@ -376,6 +377,24 @@ TEST(EditorOnDisk, NewWorkDoesNotOverwriteTheAutosaveThatIsOffered) {
   QFile kept(third.session().autosave_path() + ".found");
   ASSERT_TRUE(kept.open(QIODevice::ReadOnly));
   EXPECT_EQ(kept.readAll().toStdString(), first.text);
+}
+
+TEST(EditorOnDisk, WorkOfSeveralEndedSessionsIsOfferedOneAfterAnother) {
+  OnDisk first;
+  const QString second = first.folder.filePath("second.kg.json");
+  ASSERT_TRUE(QFile::copy(first.path, second));
+  Document work = first.document();
+  for (const char* end : {"", ".found"}) {
+    work.nodes.begin()->second.note = *end ? "older" : "fresher";
+    std::ofstream(first.folder.filePath(QString(".second.kg.json.autosave") + end).toStdString())
+        << write_document(work, first.registry);
+  }
+  ASSERT_TRUE(first.window.open(second));
+  ASSERT_TRUE(first.notice()->isVisible());
+  ASSERT_TRUE(first.answer("Throw it away"));
+  ASSERT_TRUE(first.notice()->isVisible());
+  ASSERT_TRUE(first.answer("Take it up"));
+  EXPECT_EQ(first.note(), "older");
 }
 
 TEST(EditorOnDisk, TwoEditorsOfOneGraphKeepTheirOwnUnsavedWork) {
