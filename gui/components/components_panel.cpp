@@ -16,6 +16,7 @@
 
 #include "graph/edit.h"
 #include "gui/components/component_edits.h"
+#include "gui/components/component_marks.h"
 #include "gui/components/components_grid.h"
 #include "gui/document/problem_text.h"
 #include "gui/viewing/looked_at.h"
@@ -472,17 +473,8 @@ void ComponentsPanel::update_controls() {
   std::vector<QString> badges;
   if (auto picture = figures_.find(
           components_.node.empty() ? nullptr : evaluation_.value(components_.node, components_.port)))
-    for (std::size_t i = 0; i < picture->figures.size(); ++i) {
-      const double times = amount_of(all, "scale", static_cast<int>(i) + 1);
-      const double plus = amount_of(all, "translate", static_cast<int>(i) + 1);
-      QString badge;
-      if (times != 1) badge += QString("× %1").arg(times, 0, 'g', 3);
-      if (plus != 0)
-        badge += QString("%1%2 %3")
-                     .arg(badge.isEmpty() ? "" : "  ", plus < 0 ? "−" : "+")
-                     .arg(std::abs(plus), 0, 'g', 3);
-      badges.push_back(badge);
-    }
+    for (std::size_t i = 0; i < picture->figures.size(); ++i)
+      badges.push_back(QString::fromStdString(mark_of(all, static_cast<int>(i) + 1)));
   grid_->set_badges(std::move(badges));
 }
 
