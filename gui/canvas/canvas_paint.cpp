@@ -70,12 +70,16 @@ void GraphCanvas::paintEvent(QPaintEvent*) {
 void GraphCanvas::paint_grid(QPainter& p) {
   double step = 40 * zoom_;
   while (step < 20) step *= 4;
-  p.setPen(QPen(theme_->grid, 1));
+  // Alike thick at any scale of the screen: as many whole pixels of it.
+  const double ratio = devicePixelRatioF(), thick = std::max(1.0, std::floor(ratio)) / ratio;
+  const auto whole = [ratio](double x) { return std::round(x * ratio) / ratio; };
   const double x0 = std::fmod(pan_.x(), step), y0 = std::fmod(pan_.y(), step);
-  QList<QLineF> lines;
-  for (double x = x0; x < width(); x += step) lines << QLineF(std::round(x), 0, std::round(x), height());
-  for (double y = y0; y < height(); y += step) lines << QLineF(0, std::round(y), width(), std::round(y));
-  p.drawLines(lines);
+  QList<QRectF> lines;
+  for (double x = x0; x < width(); x += step) lines << QRectF(whole(x), 0, thick, height());
+  for (double y = y0; y < height(); y += step) lines << QRectF(0, whole(y), width(), thick);
+  p.setPen(Qt::NoPen);
+  p.setBrush(theme_->grid);
+  p.drawRects(lines);
 }
 
 void GraphCanvas::paint_frames(QPainter& p) {
