@@ -452,7 +452,9 @@ void ComponentsPanel::update_controls() {
   const Json all = edits();
   const std::vector<int> components = chosen();
   const bool any = !components.empty() && !session_.is_read_only();
-  for (QWidget* one : std::initializer_list<QWidget*>{scale_, translate_, take_away_}) one->setEnabled(any);
+  for (QWidget* one : std::initializer_list<QWidget*>{scale_label_, scale_, scale_value_, translate_label_,
+                                                      translate_, translate_value_, take_away_})
+    one->setEnabled(any);
   merge_->setEnabled(any && components.size() > 1);
   const bool several = from_->count() > 1;
   transfer_->setEnabled(any && several);
