@@ -188,9 +188,12 @@ Takes takes(int rows, int rows_in_a_column) {
       else if (type == "Check")
         nodes += ", \"inputs\": {\"metrics\": \"figures" + number + ".metrics\"}";
       else
-        nodes += ", \"inputs\": {\"motion\": \"" + motion + ".motion\"}";
+        nodes +=
+            ", \"inputs\": {\"motion\": \"" + motion + ".motion\"" +
+            (type == "Footskate" ? ", \"contacts\": \"plants" + number + ".contacts\"}" : QByteArray("}"));
       nodes += "}";
-      const int x = 250 * i + 2700 * ((row - 1) / rows_in_a_column), y = 200 * ((row - 1) % rows_in_a_column);
+      const int x = 250 * i + 2700 * ((row - 1) / rows_in_a_column),
+                y = 200 * ((row - 1) % rows_in_a_column) + (type == "DetectContacts" ? 90 : 0);
       places += (places.isEmpty() ? "\"" : ", \"") + name + "\": {\"pos\": [" + QByteArray::number(x) + ", " +
                 QByteArray::number(y) + "]}";
       if (type != "DetectContacts") motion = name;
