@@ -112,6 +112,10 @@ MainWindow::MainWindow(const Registry& registry, const Options& options)
   connect(&session_, &Session::changed, this, &MainWindow::update_actions);
   connect(&session_, &Session::selection_changed, this, &MainWindow::update_actions);
   connect(&session_, &Session::file_changed, this, &MainWindow::update_title);
+  // Nothing is evaluated there, which would tell how it stands.
+  connect(&session_, &Session::changed, this, [this] {
+    if (session_.is_read_only()) update_progress();
+  });
   connect(&session_, &Session::refused, this, [this](const QString& message, const QString& hint) {
     const QString end = message.endsWith('.') ? QString() : QStringLiteral(".");
     notice_->say(NoticeBar::Kind::warning, hint.isEmpty() ? message : message + end + " " + hint, {}, 8);

@@ -125,6 +125,18 @@ TEST(EditorStates, ANodeOfUnknownTypeIsCalledSo) {
   EXPECT_TRUE(values.contains("unknown type")) << qPrintable(values.join(", "));
 }
 
+TEST(EditorStates, AGraphOfANewerKinegraphIsReadOnly) {
+  Editor editor;
+  QFile file(editor.folder.filePath("newer.kg.json"));
+  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+  file.write(R"({"format": "kinegraph", "schema": 99, "nodes": {"walk": {"type": "Gait"}}})");
+  file.close();
+  editor.window.open(file.fileName());
+  ASSERT_TRUE(editor.session().is_read_only());
+  const auto* line = editor.window.findChild<StateLine*>();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return line->text() == "Read-only"; }, 3000)) << qPrintable(line->text());
+}
+
 TEST(EditorStates, ASwitchStandsAsWhatItPassesOn) {
   Standing editor(R"("walk": {"type": "Gait", "params": {"seconds": 2}},
     "gone": {"type": "Load", "params": {"file": "clips/nowhere.bvh"}},
