@@ -197,8 +197,14 @@ std::shared_ptr<Evaluation::Run> Evaluation::planned(EvaluationRequest request) 
   planning.file = run.request.file;
   planning.folder = planning.set_folder = planning.out = run.request.folder;
   run.plan = plan_of_sound_part(run.request, registry_, planning, run.result->left_out, run.result->problems);
+  // Who looks at a disabled node through which nothing passes makes no mistake.
+  const auto gives_nothing = [&](const Target& target) {
+    return run.plan.passed.count(target.node) && !target.port.empty() &&
+           !run.plan.find_output(target.node, target.port);
+  };
   for (const Target& target : run.request.targets)
-    if (run.request.document.nodes.count(target.node)) run.targets.push_back(target);
+    if (run.request.document.nodes.count(target.node) && !gives_nothing(target))
+      run.targets.push_back(target);
   if (run.request.effects)
     for (const std::string& node : run.plan.effects) run.targets.push_back({node, ""});
   return fresh;

@@ -125,6 +125,18 @@ TEST(EditorStates, ANodeOfUnknownTypeIsCalledSo) {
   EXPECT_TRUE(values.contains("unknown type")) << qPrintable(values.join(", "));
 }
 
+TEST(EditorStates, ADisabledNodeThatIsNotLinkedIsNoProblem) {
+  Standing editor(R"("mirror": {"type": "Mirror"})");
+  QTest::mouseClick(&editor.canvas(), Qt::LeftButton, {}, editor.middle("mirror"));
+  ASSERT_TRUE(editor.line_says("1 node needs a link")) << qPrintable(editor.line());
+  editor.key(Qt::Key_D);
+  ASSERT_TRUE(editor.line_says("Up to date")) << qPrintable(editor.line());
+  editor.window.show_dock("Problems");
+  auto* list = editor.window.findChild<QTreeWidget*>("problem_list");
+  EXPECT_TRUE(QTest::qWaitFor([&] { return list->topLevelItemCount() == 0; }, 5000))
+      << qPrintable(list->topLevelItem(0)->text(1));
+}
+
 TEST(EditorStates, AGraphOfANewerKinegraphIsReadOnly) {
   Editor editor;
   QFile file(editor.folder.filePath("newer.kg.json"));
