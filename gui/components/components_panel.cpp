@@ -322,7 +322,7 @@ void ComponentsPanel::tell_nothing() {
     empty_->setText(
         tr("%1 waits for a node before it that failed or is not linked. Problems tells which.").arg(name));
   } else if (state == NodeStatus::State::cancelled) {
-    empty_->setText(tr("%1 was cancelled.").arg(name));
+    empty_->setText(tr("%1 was cancelled. Choose another node or change something, and work goes on.").arg(name));
   } else if (session_.is_read_only()) {
     empty_->setText(tr("A graph of a newer Kinegraph can't be computed here."));
   } else {

@@ -1,6 +1,7 @@
 #include "nodes/components/best_start.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "nodes/components/optima.h"
 
@@ -19,9 +20,12 @@ const FastIcaRun& best_of(const std::vector<FastIcaRun>& runs) {  // the first, 
 BestStart search(const Rows& z, const FastIcaParams& params, int starts, std::uint64_t seed, Work& work) {
   const auto count = static_cast<std::size_t>(std::max(starts, 1));
   std::vector<FastIcaRun> all(count);
+  std::atomic<std::size_t> done = 0;
   work.parallel(count, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n)
+    for (std::size_t n = begin; n < end; ++n) {
       all[n] = fast_ica(z, starting_rotation(z.rows, static_cast<int>(n), seed), params, work);
+      work.progress(0.9 * static_cast<double>(++done) / static_cast<double>(count));
+    }
   });
   BestStart best{leave_side_optimum(z, best_of(all), params, work), std::vector<bool>(z.rows, true)};
   if (count == 1) return best;

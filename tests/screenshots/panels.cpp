@@ -118,11 +118,13 @@ void typing(const Theme& theme, const QDir& into, const QString& end) {
   QTest::keyClick(blend, Qt::Key_Return);
   shot.wait();
   shot.take_widget("parameter_arithmetic" + end, tall.dock);
+  tall.dock->resize(435, 640);
   retype(shot, blend, "fast");
   retype(shot, field(shot, "stretch")->findChild<QLineEdit*>(), "-3");
   retype(shot, field(shot, "range")->findChild<QLineEdit*>(), "soon");
   shot.take_widget("parameter_mistake" + end, tall.dock);
   shot.select("a_walk_that_was_smoothed_twice_and_held_on_the_floor");
+  QApplication::setActiveWindow(&shot.window);
   shot.canvas().setFocus();
   shot.wait(150);
   shot.take_widget("parameters_long" + end, tall.dock);

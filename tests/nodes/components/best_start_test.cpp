@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "nodes/components/principal.h"
@@ -86,6 +87,23 @@ TEST(BestStart, OfAClipThatRepeatsSeesAllOfIt) {
   }
   const Rows z = whiten(x, leading_components(x, work), 2, work).z;
   EXPECT_GT(agreement(best_of_starts(z, {}, 4, 0, work).run, best_over_all_frames(z, 4, work)), 0.999);
+}
+
+TEST(BestStart, TellsHowManyOfItsStartsAreDone) {
+  struct Telling : Alone {
+    void progress(double fraction) override { told.push_back(fraction); }
+    std::vector<double> told;
+  } work;
+  Rows z(2, 600);
+  for (std::size_t t = 0; t < z.columns; ++t) {
+    z(0, t) = t % 7 < 3 ? 1 : -1;
+    z(1, t) = t % 11 < 5 ? 1 : -1;
+  }
+  best_of_starts(z, {}, 5, 0, work);
+  ASSERT_GE(work.told.size(), 5u);
+  EXPECT_TRUE(std::is_sorted(work.told.begin(), work.told.begin() + 5));
+  EXPECT_GT(work.told[0], 0);
+  EXPECT_LE(work.told[4], 1);
 }
 
 }  // namespace
