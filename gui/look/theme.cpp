@@ -140,9 +140,9 @@ QPalette Theme::palette() const {
 
 QString Theme::style_sheet() const {
   const auto c = [](const QColor& color) { return color.name(); };
-  // Of what can't be moved now: between the groove and the words.
-  const QColor resting((line.red() + faint_text.red()) / 2, (line.green() + faint_text.green()) / 2,
-                       (line.blue() + faint_text.blue()) / 2);
+  // Of what can't be moved or chosen now, and of words on it: between faint ones and their ground.
+  const QColor resting((faint_text.red() + window.red()) / 2, (faint_text.green() + window.green()) / 2,
+                       (faint_text.blue() + window.blue()) / 2);
   return QString(R"(
 QMainWindow::separator { background: %1; width: 4px; height: 4px; }
 QMainWindow::separator:hover { background: %5; }
@@ -172,7 +172,7 @@ QPushButton:default { background: %6; border-color: %6; }
 QPushButton:disabled { color: %7; }
 QLineEdit, QPlainTextEdit, QComboBox { background: %8; border: 1px solid %3; border-radius: 4px; padding: 3px 6px; selection-background-color: %6; }
 QComboBox > QLineEdit { border: none; padding: 0px; margin: 0px; background: transparent; }
-QComboBox:disabled { color: %7; background: transparent; }
+QComboBox:disabled { color: %13; background: transparent; }
 QComboBox::drop-down { border: none; width: 18px; }
 QComboBox::down-arrow { image: url(:/kinegraph/arrow_down.png); width: 10px; height: 10px; }
 QComboBox QAbstractItemView { background: %2; border: 1px solid %3; selection-background-color: %6; outline: none; }

@@ -211,6 +211,17 @@ void TimelineTracks::paint_row(QPainter& painter, const Row& row, const QRectF& 
   const double room = gutter_ - 28 - (named ? lane_names_ : 0);
   const QString name = painter.fontMetrics().elidedText(row.name, Qt::ElideRight, static_cast<int>(room) + 1);
   painter.drawText(QRectF(22, where.top(), room + 2, where.height()), Qt::AlignVCenter | Qt::AlignLeft, name);
+  // A rate of its own, as frames are counted in those of the clip.
+  if (row.motion && row.motion->fps != playback_.fps() &&
+      where.height() > 2.6 * painter.fontMetrics().height()) {
+    const QFont usual = painter.font();
+    painter.setFont(lane_font(usual, most_lane));
+    painter.setPen(theme_->faint_text);
+    painter.drawText(QRectF(22, where.center().y() + 0.55 * QFontMetricsF(usual).height(), room + 2, 16),
+                     Qt::AlignTop | Qt::AlignLeft | Qt::TextDontClip,
+                     tr("%1 fps").arg(row.motion->fps, 0, 'g', 4));
+    painter.setFont(usual);
+  }
   painter.setPen(Qt::NoPen);
   painter.setBrush(row.color);
   painter.drawEllipse(QPointF(13, where.center().y()), 4, 4);
