@@ -227,7 +227,7 @@ void components(const Theme& theme, const QDir& into, const QString& end) {
     Shot shot(theme, into);
     shot.text(R"("long": {"type": "Gait", "params": {"seconds": 60}},
       "other": {"type": "Gait", "params": {"seconds": 60, "speed": 2}},
-      "parts": {"type": "ICA", "inputs": {"motions": ["long.motion", "other.motion"]}, "params": {"components": 30, "starts": 1000, "iterations": 100000, "tolerance": 1e-15}})");
+      "parts": {"type": "ICA", "inputs": {"motions": ["long.motion", "other.motion"]}, "params": {"components": 30, "starts": 60, "iterations": 100000, "tolerance": 1e-15}})");
     shot.session().select({"parts"}, "parts");
     shot.window.show_dock("Components");
     QElapsedTimer clock;
@@ -235,7 +235,7 @@ void components(const Theme& theme, const QDir& into, const QString& end) {
       QApplication::processEvents(QEventLoop::AllEvents, 20);
       const NodeStatus* parts = shot.window.evaluation().status("parts");
       if (parts && parts->state == NodeStatus::State::running &&
-          (parts->progress > 0.1 || clock.elapsed() > 8000))
+          (parts->progress > 0.3 || clock.elapsed() > 15000))
         break;
     }
     shot.take_widget("components_running" + end, shot.window.findChild<QWidget*>("dock_components"));
