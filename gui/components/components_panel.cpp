@@ -20,6 +20,7 @@
 #include "gui/components/components_grid.h"
 #include "gui/document/problem_text.h"
 #include "gui/viewing/looked_at.h"
+#include "gui/viewing/why_no_value.h"
 
 namespace kinegraph {
 namespace {
@@ -318,13 +319,8 @@ void ComponentsPanel::tell_nothing() {
     const QString advice = advice_on(problem);
     empty_->setText(tr("%1 failed.\n%2").arg(name, problem_text(problem)) +
                     (advice.isEmpty() ? QString() : "\n" + advice));
-  } else if (state == NodeStatus::State::blocked) {
-    empty_->setText(
-        tr("%1 waits for a node before it that failed or is not linked. Problems tells which.").arg(name));
-  } else if (state == NodeStatus::State::cancelled) {
-    empty_->setText(tr("%1 was cancelled. Choose another node or change something, and work goes on.").arg(name));
-  } else if (session_.is_read_only()) {
-    empty_->setText(tr("A graph of a newer Kinegraph can't be computed here."));
+  } else if (!is_on_its_way(session_, evaluation_, components_.node)) {
+    empty_->setText(why_no_value(session_, evaluation_, components_.node));
   } else {
     working = true;
     const bool runs = state == NodeStatus::State::running;

@@ -14,7 +14,7 @@
 #include "gui/curves/channel_plot.h"
 #include "gui/curves/warp_plot.h"
 #include "gui/viewing/looked_at.h"
-#include "gui/viewing/on_its_way.h"
+#include "gui/viewing/why_no_value.h"
 #include "nodes/motion/elementary.h"
 #include "nodes/motion/metrics.h"
 #include "nodes/motion/motion.h"
@@ -267,27 +267,6 @@ void CurvesPanel::tell(const QString& words) {
   pages_->setCurrentIndex(words_page);
 }
 
-QString CurvesPanel::why_not(const Offer& offer) const {
-  const NodeStatus* status = evaluation_.status(offer.result.node);
-  const QString node = QString::fromStdString(offer.result.node);
-  using State = NodeStatus::State;
-  switch (status ? status->state : State::idle) {
-    case State::failed:
-    case State::missing:
-      return tr("%1 failed. Problems tells why.").arg(node);
-    case State::blocked:
-      return tr("%1 waits for a node before it that failed or is not linked. Problems tells which.")
-          .arg(node);
-    case State::incomplete:
-      return tr("%1 isn't linked yet.").arg(node);
-    case State::cancelled:
-      return tr("%1 was cancelled.").arg(node);
-    default:
-      return session_.is_read_only() ? tr("A graph of a newer Kinegraph can't be computed here.")
-                                     : on_its_way(session_.document(), evaluation_, offer.result.node);
-  }
-}
-
 void CurvesPanel::take_values() {
   const Offer* one = offer();
   const bool channels = one && one->type == "Motion";
@@ -301,7 +280,7 @@ void CurvesPanel::take_values() {
   if (!one) return tell(tr("Choose a node to see its channels, statistics or warp as curves."));
   if (!visible_) return;
   const ValuePtr value = evaluation_.value(one->result.node, one->result.port);
-  if (!value) return tell(why_not(*one));
+  if (!value) return tell(why_no_value(session_, evaluation_, one->result.node));
   if (one->type == "Warp")
     show_warp(*one);
   else if (channels)

@@ -52,7 +52,6 @@ class CurvesPanel : public QWidget {
   };
   void build();
   void find_wanted();
-  QString why_not(const Offer& offer) const;
   void take_values();
   void fill_joints(const ShownMotion& motion);
   void show_channels(const Offer& offer);

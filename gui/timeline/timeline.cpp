@@ -13,7 +13,7 @@
 #include "gui/timeline/transport_icon.h"
 #include "gui/viewer/motion_scene.h"
 #include "gui/viewing/looked_at.h"
-#include "gui/viewing/on_its_way.h"
+#include "gui/viewing/why_no_value.h"
 
 namespace kinegraph {
 namespace {
@@ -206,35 +206,6 @@ std::optional<Target> Timeline::nearest_warp(const Document& document, const Reg
   return {};
 }
 
-QString Timeline::why_not(const std::string& node) const {
-  using State = NodeStatus::State;
-  const NodeStatus* status = evaluation_.status(node);
-  const QString name = QString::fromStdString(node);
-  if (session_.is_read_only())
-    return tr("%1 can't be computed here, as a newer Kinegraph made the graph.").arg(name);
-  switch (status ? status->state : State::idle) {
-    case State::failed:
-    case State::missing:
-      return tr("%1 failed, so there is nothing to play.").arg(name);
-    case State::blocked:
-      return tr("%1 waits for a node before it that failed or is not linked.").arg(name);
-    case State::incomplete:
-      return tr("%1 isn't linked yet.").arg(name);
-    case State::cancelled:
-      return tr("%1 was cancelled.").arg(name);
-    default:
-      return on_its_way(session_.document(), evaluation_, node);
-  }
-}
-
-bool Timeline::may_wait_for(const std::string& node) const {
-  using State = NodeStatus::State;
-  const NodeStatus* status = evaluation_.status(node);
-  const State state = status ? status->state : State::idle;
-  return !session_.is_read_only() &&
-         (state == State::idle || state == State::waiting || state == State::running || state == State::done);
-}
-
 void Timeline::take_values() {
   const Viewer::Shown* main = nullptr;
   const auto& shown = viewer_.shown();
@@ -242,7 +213,7 @@ void Timeline::take_values() {
       std::any_of(shown.begin(), shown.end(), [](const auto& one) { return one.motion != nullptr; });
   if (any) {
     patience_.stop();
-  } else if (shown.empty() || !may_wait_for(shown.front().target.node)) {
+  } else if (shown.empty() || !is_on_its_way(session_, evaluation_, shown.front().target.node)) {
     playback_.pause();  // else it would go on unseen
   } else if (playable_) {
     if (!patience_.isActive()) patience_.start();
@@ -268,7 +239,8 @@ void Timeline::take_values() {
         std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.motion == one.motion; });
     if (!there)
       rows.push_back({name, color_of_shown(*theme_, i), one.motion,
-                      one.motion ? QString() : why_not(one.target.node), one.contacts()});
+                      one.motion ? QString() : why_no_value(session_, evaluation_, one.target.node),
+                      one.contacts()});
   }
   if (main) playback_.set_clip(main->motion->fps, main->motion->frames);
   const bool with_warp = warp && rows.size() >= 2 && !source_.node.empty();

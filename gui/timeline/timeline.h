@@ -49,10 +49,6 @@ class Timeline : public QWidget {
   std::optional<Target> nearest_warp(const Document& document, const Registry& registry,
                                      const std::string& node) const;
   void take_values();
-  // Where a chosen node's value is still on its way the timeline stays as it is for a moment, so that going
-  // through nodes that are ready at once doesn't flicker.
-  bool may_wait_for(const std::string& node) const;
-  QString why_not(const std::string& node) const;
   void update_state();
   void update_moment();
   void set_playable(bool playable);
@@ -66,6 +62,8 @@ class Timeline : public QWidget {
   Target warp_, source_, reference_;  // node "" = none
   std::vector<std::pair<QToolButton*, TransportIcon>> buttons_;
   bool playable_ = false;  // a motion is shown
+  // Where a chosen node's value is still on its way the timeline stays as it is for a moment, so that going
+  // through nodes that are ready at once doesn't flicker.
   QTimer patience_;
   TimelineTracks* tracks_ = nullptr;
   QToolButton *play_ = nullptr, *loop_ = nullptr;

@@ -5,16 +5,12 @@
 
 #include "gui/document/problem_text.h"
 #include "gui/viewer/viewer.h"
-#include "gui/viewing/on_its_way.h"
+#include "gui/viewing/why_no_value.h"
 
 namespace kinegraph {
 
 bool Viewer::may_wait() const {
-  if (shown_.empty() || session_.is_read_only()) return false;
-  using State = NodeStatus::State;
-  const NodeStatus* status = evaluation_.status(shown_.front().target.node);
-  const State state = status ? status->state : State::idle;
-  return state == State::idle || state == State::waiting || state == State::running || state == State::done;
+  return !shown_.empty() && is_on_its_way(session_, evaluation_, shown_.front().target.node);
 }
 
 void Viewer::update_words() {
@@ -27,7 +23,7 @@ void Viewer::update_words() {
       std::any_of(shown_.begin(), shown_.end(), [](const Shown& one) { return one.motion != nullptr; });
   QString words;
   if (session_.is_read_only()) {
-    words = tr("A newer Kinegraph made this graph; what its nodes give can't be computed here.");
+    words = why_no_value(session_, evaluation_, {});
   } else if (session_.document().nodes.empty()) {
     words = tr("Motions are shown here. Add a Load or a Gait to the graph.");
   } else if (shown_.empty()) {
@@ -51,14 +47,8 @@ void Viewer::update_words() {
                          .arg(theme_->faint_text.name(), advice.toHtmlEscaped());
           break;
         }
-    } else if (status && status->state == State::blocked) {
-      words = tr("%1 waits for a node before it that failed or is not linked. Problems tells which.")
-                  .arg(name.toHtmlEscaped());
-    } else if (status && status->state == State::cancelled) {
-      words = tr("%1 was cancelled. Choose another node or change something, and work goes on.")
-                  .arg(name.toHtmlEscaped());
     } else {
-      words = on_its_way(session_.document(), evaluation_, node).toHtmlEscaped();
+      words = why_no_value(session_, evaluation_, node).toHtmlEscaped();
     }
   }
   if (any && words.isEmpty()) {

@@ -308,11 +308,13 @@ TEST(EditorParameters, EveryRowOfEveryNodeFitsADockOfTheLeastWidth) {
       EXPECT_GE(left.x(), 0) << part->metaObject()->className();
       EXPECT_LE(left.x() + part->width(), seen.width() + 1)
           << part->metaObject()->className() << " " << part->accessibleName().toStdString();
-      if (auto* button = qobject_cast<QAbstractButton*>(part); button && !button->text().isEmpty())
+      if (auto* button = qobject_cast<QAbstractButton*>(part); button && !button->text().isEmpty()) {
         EXPECT_GE(button->width(), button->fontMetrics().horizontalAdvance(button->text()))
             << button->accessibleName().toStdString();
-      if (auto* label = qobject_cast<QLabel*>(part); label && label->text().endsWith("…"))
+      }
+      if (auto* label = qobject_cast<QLabel*>(part); label && label->text().endsWith("…")) {
         EXPECT_FALSE(label->toolTip().isEmpty()) << label->text().toStdString();
+      }
     }
   }
 }

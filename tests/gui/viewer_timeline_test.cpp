@@ -88,7 +88,7 @@ TEST(ViewerTimeline, TellsOfTheChosenNodeWhereItHasNothingToPlay) {
   EXPECT_TRUE(window.playback.is_playing());
 
   window.session.select({"soft"});
-  EXPECT_TRUE(tells("soft waits for a node before it that failed"));
+  EXPECT_TRUE(tells("soft waits for gone, which failed."));
   EXPECT_EQ(buttons(), 0);
   EXPECT_FALSE(window.playback.is_playing());
   QTest::keyClick(tracks, Qt::Key_Space);
