@@ -24,8 +24,9 @@ std::string bytes_of(const QString& path, const char* code) {
   QFile file(path);
   const bool readable = (info.isFile() || !info.exists()) && file.open(QIODevice::ReadOnly);
   if (!readable)
-    throw Failure(error(code, info.exists() && !info.isFile() ? "it is not a regular file"
-                                                              : file.errorString().toStdString())
+    throw Failure(error(code, !info.exists()   ? "there is no such file"
+                              : !info.isFile() ? "it is not a regular file"
+                                               : file.errorString().toStdString())
                       .in_file(path.toStdString()));
   return file.readAll().toStdString();
 }

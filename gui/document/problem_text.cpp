@@ -43,7 +43,8 @@ Severity shown_severity(const Diagnostic& problem) {
 
 QString problem_text(const Diagnostic& problem) {
   QString text = with_quotes(QString::fromStdString(problem.message));
-  if (!problem.joint.empty()) text += QObject::tr(", joint %1").arg(QString::fromStdString(problem.joint));
+  if (const QString joint = QString::fromStdString(problem.joint); !joint.isEmpty() && !text.contains(joint))
+    text += QObject::tr(", joint %1").arg(joint);
   if (problem.frame) text += QObject::tr(", frame %1").arg(*problem.frame);
   if (of_a_clip(problem) && problem.place.line > 0) {
     const QString name = QFileInfo(QString::fromStdString(problem.file)).fileName();

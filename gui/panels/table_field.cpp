@@ -413,6 +413,7 @@ class TableField : public ParamField {
     const int still = wrong_row_ == row ? -1 : wrong_row_;
     const QString still_why = wrong_;
     const int still_column = wrong_column_;
+    say_wrong(-1, 0, {});  // by itself: the node may have failed of another cell
     emit edited(next);
     emit corrected();
     if (still >= 0) say_wrong(still, still_column, still_why);
