@@ -2,13 +2,12 @@
 
 #include <QDialogButtonBox>
 #include <QHeaderView>
-#include <QLabel>
 #include <QPushButton>
 #include <QTreeWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "graph/json.h"
+#include "gui/look/headed_column.h"
 
 namespace kinegraph {
 namespace {
@@ -78,14 +77,7 @@ QStringList changes_in_words(const Diff& diff) {
 ChangesDialog::ChangesDialog(const QString& title, const Diff& diff, QWidget* parent) : QDialog(parent) {
   setObjectName("changes_dialog");
   setWindowTitle(tr("What changed"));
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(16, 14, 16, 14);
-  column->setSpacing(10);
-  auto* head = new QLabel(title, this);
-  QFont bold = head->font();
-  bold.setBold(true);
-  head->setFont(bold);
-  column->addWidget(head);
+  QVBoxLayout* column = headed_column(*this, title);
   auto* list = new QTreeWidget(this);
   list->setAccessibleName(tr("Changes"));
   list->setHeaderLabels({tr("Node"), tr("What"), tr("Before"), tr("On disk now")});

@@ -7,10 +7,10 @@
 #include <QPushButton>
 #include <QRadioButton>
 #include <QTableWidget>
-#include <QVBoxLayout>
 #include <algorithm>
 
 #include "gui/document/problem_text.h"
+#include "gui/look/headed_column.h"
 #include "gui/window/changes_dialog.h"
 
 namespace kinegraph {
@@ -26,14 +26,7 @@ ConflictsDialog::ConflictsDialog(const QString& title, const std::vector<MergeCo
     : QDialog(parent) {
   setObjectName("conflicts_dialog");
   setWindowTitle(tr("Changed by both"));
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(16, 14, 16, 14);
-  column->setSpacing(10);
-  auto* head = new QLabel(title, this);
-  QFont bold = head->font();
-  bold.setBold(true);
-  head->setFont(bold);
-  column->addWidget(head);
+  QVBoxLayout* column = headed_column(*this, title);
   column->addWidget(
       new QLabel(tr("Choose what to keep. All else of both sides is in the graph already."), this));
   auto* table = new QTableWidget(0, columns, this);

@@ -94,16 +94,24 @@ TEST(EditorCanvas, CtrlDragCutsTheWiresItCrosses) {
   EXPECT_EQ(editor.links(editor.metrics, "motion"), 0u);
 }
 
+// A third node, dropped on the wire between the two.
+struct OnAWire : TwoNodes {
+  OnAWire() {
+    drag(port(gait, "motion", false), port(metrics, "motion", true));
+    drag_node(metrics, {340, 0});
+    feet = add("footskate");
+    drag_node(feet, {20, 300});
+    const QPointF wire = (canvas().scene().port_position({gait, "motion", false}) +
+                          canvas().scene().port_position({metrics, "motion", true})) /
+                         2;
+    drag_node(feet, wire - QPointF(90, 50));
+  }
+  std::string feet;
+};
+
 TEST(EditorCanvas, ANodeDroppedOnAWireIsPutIntoItAndAltDragTakesItOut) {
-  TwoNodes editor;
-  editor.drag(editor.port(editor.gait, "motion", false), editor.port(editor.metrics, "motion", true));
-  editor.drag_node(editor.metrics, {340, 0});
-  const std::string feet = editor.add("footskate");
-  editor.drag_node(feet, {20, 300});
-  const QPointF wire = (editor.canvas().scene().port_position({editor.gait, "motion", false}) +
-                        editor.canvas().scene().port_position({editor.metrics, "motion", true})) /
-                       2;
-  editor.drag_node(feet, wire - QPointF(90, 50));
+  OnAWire editor;
+  const std::string& feet = editor.feet;
   ASSERT_EQ(editor.links(feet, "motion"), 1u);
   EXPECT_EQ(editor.document().nodes.at(editor.metrics).inputs.at("motion").links[0].node, feet);
   const QPoint at = editor.middle(feet);
@@ -113,15 +121,8 @@ TEST(EditorCanvas, ANodeDroppedOnAWireIsPutIntoItAndAltDragTakesItOut) {
 }
 
 TEST(EditorCanvas, AltDragShowsTheLinkThatWillBeBeforeItIsLetGo) {
-  TwoNodes editor;
-  editor.drag(editor.port(editor.gait, "motion", false), editor.port(editor.metrics, "motion", true));
-  editor.drag_node(editor.metrics, {340, 0});
-  const std::string feet = editor.add("footskate");
-  editor.drag_node(feet, {20, 300});
-  const QPointF wire = (editor.canvas().scene().port_position({editor.gait, "motion", false}) +
-                        editor.canvas().scene().port_position({editor.metrics, "motion", true})) /
-                       2;
-  editor.drag_node(feet, wire - QPointF(90, 50));
+  OnAWire editor;
+  const std::string& feet = editor.feet;
   ASSERT_EQ(editor.links(feet, "motion"), 1u);
   const QPoint middle =
       (editor.port(editor.gait, "motion", false) + editor.port(editor.metrics, "motion", true)) / 2;

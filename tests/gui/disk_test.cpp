@@ -1,9 +1,8 @@
-// What happens to files: autosaves, a colleague's changes, files that are gone.
+// What happens to files: a colleague's changes, files that are gone or damaged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <QComboBox>
-#include <QElapsedTimer>
 #include <QFile>
 #include <QLabel>
 #include <QMessageBox>
@@ -14,84 +13,12 @@
 #include <QTreeWidget>
 #include <fstream>
 
-#include "graph/edit.h"
 #include "graph/file/write.h"
 #include "gui/window/relink_dialog.h"
-#include "tests/gui/editor.h"
-#include "tests/places.h"
+#include "tests/gui/on_disk.h"
 
 namespace kinegraph::editor_test {
 namespace {
-
-const QString graphs = QString::fromStdString(source_folder()) + "/graphs/";
-
-struct OnDisk : Editor {
-  explicit OnDisk(bool ask = false) : Editor(ask), path(folder.filePath("main.kg.json")) {
-    QDir(folder.path()).mkpath("clips");
-    EXPECT_TRUE(QFile::copy(graphs + "sneaky_walk.kg.json", path));
-    for (const QFileInfo& clip : QDir(graphs + "clips").entryInfoList(QDir::Files))
-      QFile::copy(clip.absoluteFilePath(), folder.filePath("clips/" + clip.fileName()));
-    EXPECT_TRUE(window.open(path));
-    canvas().setFocus();
-    settle();
-  }
-  void rewrite(const std::string& text) {
-    QFile file(path);
-    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
-    file.write(text.data(), qint64(text.size()));
-  }
-  void set_note(const std::string& note) {
-    session().perform([&](const Document& d, const Registry&) {
-      return kinegraph::set_note(d, d.nodes.begin()->first, note);
-    });
-  }
-  std::string note() { return document().nodes.begin()->second.note; }
-  QWidget* notice() { return window.findChild<QWidget*>("notice_bar"); }
-  bool answer(const QString& text) {
-    for (QPushButton* button : notice()->findChildren<QPushButton*>())
-      if (button->text() == text && button->isVisible()) {
-        QTest::mouseClick(button, Qt::LeftButton);
-        settle();
-        return true;
-      }
-    return false;
-  }
-  QString path;
-};
-
-// A session with unsaved work that ended without a word.
-struct Ended {
-  Ended() {
-    OnDisk editor;
-    editor.add("gait");
-    text = editor.session().text();
-    EXPECT_TRUE(QTest::qWaitFor([&] { return QFile::exists(editor.session().autosave_path()); }, 5000));
-    for (const char* file : {"main.kg.json", ".main.kg.json.autosave"})
-      EXPECT_TRUE(QFile::copy(editor.folder.filePath(file), folder.filePath(file)));
-  }
-  QString path() const { return folder.filePath("main.kg.json"); }
-  QTemporaryDir folder;
-  std::string text;
-};
-
-TEST(EditorOnDisk, AnAutosaveIsOfferedAndTakenUpAsOneStep) {
-  Ended first;
-  const std::string& wanted = first.text;
-  Editor second;
-  ASSERT_TRUE(second.window.open(first.path()));
-  EXPECT_NE(second.session().text(), wanted);
-  QPushButton* take = nullptr;
-  for (QPushButton* button : second.window.findChild<QWidget*>("notice_bar")->findChildren<QPushButton*>())
-    if (button->text() == "Take it up") take = button;
-  ASSERT_TRUE(take);
-  const std::string before = second.session().text();
-  QTest::mouseClick(take, Qt::LeftButton);
-  EXPECT_EQ(second.session().text(), wanted);
-  second.canvas().setFocus();
-  second.key(Qt::Key_Z, Qt::ControlModifier);
-  EXPECT_EQ(second.session().text(), before);
-  EXPECT_FALSE(second.session().can_undo());
-}
 
 TEST(EditorOnDisk, AColleaguesChangeIsMergedAsOneStep) {
   OnDisk editor;
@@ -184,24 +111,6 @@ TEST(EditorOnDisk, ANewerFileOfAColleagueIsNotWrittenOver) {
   EXPECT_TRUE(editor.notice()->isVisible());
 }
 
-TEST(EditorOnDisk, WhereNoAutosaveFitsBesideTheGraphItLiesWithTheUser) {
-  {
-    OnDisk editor;
-    ASSERT_TRUE(QDir(editor.folder.path()).mkpath(".main.kg.json.autosave"));  // in its way
-    editor.set_note("mine");
-    QTest::qWait(2600);
-    bool kept = false;
-    const QDir state(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
-    for (const QString& name : state.entryList({"*main.kg.json.autosave"}, QDir::Files | QDir::Hidden)) {
-      QFile file(state.filePath(name));
-      kept |= file.open(QIODevice::ReadOnly) && file.readAll().contains("mine");
-    }
-    EXPECT_TRUE(kept);
-    editor.key(Qt::Key_S, Qt::ControlModifier);
-    EXPECT_TRUE(state.entryList({"*main.kg.json.autosave"}, QDir::Files | QDir::Hidden).isEmpty());
-  }
-}
-
 TEST(EditorOnDisk, AGraphWhoseFolderIsGoneIsSavedElsewhere) {
   OnDisk editor(true);
   editor.set_note("mine");
@@ -230,7 +139,7 @@ TEST(EditorOnDisk, AGraphWhoseFolderIsGoneIsSavedElsewhere) {
 TEST(EditorOnDisk, SeveralUnsavedGraphsAreOneQuestion) {
   OnDisk editor(true);
   editor.set_note("mine");
-  ASSERT_TRUE(QFile::copy(graphs + "feet.kg.json", editor.folder.filePath("second.kg.json")));
+  ASSERT_TRUE(QFile::copy(example_graphs() + "feet.kg.json", editor.folder.filePath("second.kg.json")));
   ASSERT_TRUE(editor.window.open(editor.folder.filePath("second.kg.json")));
   editor.set_note("mine too");
   int questions = 0;
@@ -310,7 +219,7 @@ TEST(EditorOnDisk, OfManyFilesThoseMetLastAreKnown) {
 TEST(EditorOnDisk, AMissingFileIsSaidWithAButtonThatFindsIt) {
   Editor editor;
   const QString path = editor.folder.filePath("main.kg.json");
-  ASSERT_TRUE(QFile::copy(graphs + "sneaky_walk.kg.json", path));
+  ASSERT_TRUE(QFile::copy(example_graphs() + "sneaky_walk.kg.json", path));
   ASSERT_TRUE(editor.window.open(path));
   QWidget* notice = editor.window.findChild<QWidget*>("notice_bar");
   EXPECT_TRUE(notice->isVisible());
@@ -338,113 +247,6 @@ TEST(EditorOnDisk, ANewerFileIsForReadingOnly) {
   editor.key(Qt::Key_A, Qt::ControlModifier);
   editor.key(Qt::Key_Delete);
   EXPECT_EQ(editor.document().nodes.size(), 1u);
-}
-
-TEST(EditorOnDisk, WhoNeverRestsIsAutosavedToo) {
-  OnDisk editor;
-  QElapsedTimer clock;
-  clock.start();
-  bool saved = false;
-  for (int i = 0; clock.elapsed() < 6000 && !saved; ++i) {
-    editor.session().select({editor.document().nodes.begin()->first});
-    editor.canvas().setFocus();
-    editor.key(i % 2 ? Qt::Key_Left : Qt::Key_Right, Qt::ControlModifier);
-    QTest::qWait(200);
-    saved = QFile::exists(editor.session().autosave_path());
-  }
-  EXPECT_TRUE(saved);
-}
-
-TEST(EditorOnDisk, NewWorkDoesNotOverwriteTheAutosaveThatIsOffered) {
-  Ended first;
-  const auto is_offered = [](Editor& editor) {
-    for (auto* one : editor.window.findChild<QWidget*>("notice_bar")->findChildren<QPushButton*>())
-      if (one->text() == "Take it up") return true;
-    return false;
-  };
-  {
-    Editor second;
-    ASSERT_TRUE(second.window.open(first.path()));
-    EXPECT_TRUE(is_offered(second));
-    second.add("metrics");
-    ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(second.session().autosave_path()); }, 5000));
-    ASSERT_TRUE(QFile::remove(second.session().autosave_path()));
-  }
-  // Not answered: a third start still offers the first work.
-  Editor third;
-  ASSERT_TRUE(third.window.open(first.path()));
-  EXPECT_TRUE(is_offered(third));
-  QFile kept(third.session().autosave_path() + ".found");
-  ASSERT_TRUE(kept.open(QIODevice::ReadOnly));
-  EXPECT_EQ(kept.readAll().toStdString(), first.text);
-}
-
-TEST(EditorOnDisk, WorkOfSeveralEndedSessionsIsOfferedOneAfterAnother) {
-  OnDisk first;
-  const QString second = first.folder.filePath("second.kg.json");
-  ASSERT_TRUE(QFile::copy(first.path, second));
-  Document work = first.document();
-  for (const char* end : {"", ".found"}) {
-    work.nodes.begin()->second.note = *end ? "older" : "fresher";
-    std::ofstream(first.folder.filePath(QString(".second.kg.json.autosave") + end).toStdString())
-        << write_document(work, first.registry);
-  }
-  ASSERT_TRUE(first.window.open(second));
-  ASSERT_TRUE(first.notice()->isVisible());
-  ASSERT_TRUE(first.answer("Throw it away"));
-  ASSERT_TRUE(first.notice()->isVisible());
-  ASSERT_TRUE(first.answer("Take it up"));
-  EXPECT_EQ(first.note(), "older");
-}
-
-TEST(EditorOnDisk, TwoEditorsOfOneGraphKeepTheirOwnUnsavedWork) {
-  OnDisk first;
-  first.add("gait");
-  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(first.session().autosave_path()); }, 5000));
-  {
-    Editor second;
-    ASSERT_TRUE(second.window.open(first.path));
-    // It is told of the other, and isn't given what that one is at.
-    auto* notice = second.window.findChild<QWidget*>("notice_bar");
-    EXPECT_TRUE(notice->isVisible());
-    EXPECT_FALSE(second.session().autosave_found());
-    second.add("metrics");
-    ASSERT_NE(second.session().autosave_path(), first.session().autosave_path());
-    ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(second.session().autosave_path()); }, 5000));
-    // The one that saves throws away its own alone.
-    QApplication::setActiveWindow(&first.window);
-    first.canvas().setFocus();
-    first.key(Qt::Key_S, Qt::ControlModifier);
-    EXPECT_FALSE(QFile::exists(first.session().autosave_path()));
-    EXPECT_TRUE(QFile::exists(second.session().autosave_path()));
-  }
-  Editor third;
-  ASSERT_TRUE(third.window.open(first.path));
-  EXPECT_TRUE(third.session().autosave_found());
-  third.session().keep_found();
-  EXPECT_FALSE(has_error(third.session().recover()));
-  third.session().discard_autosave();
-}
-
-TEST(EditorOnDisk, GraphsThatWereNeverSavedKeepTheirWorkApart) {
-  Editor editor;
-  editor.add("gait");
-  const QString one = editor.session().autosave_path();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(one); }, 5000));
-  editor.session().new_page();
-  editor.canvas().setFocus();
-  editor.add("metrics");
-  const QString two = editor.session().autosave_path();
-  EXPECT_NE(one, two);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(two); }, 5000));
-  QFile file(one);
-  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
-  EXPECT_TRUE(file.readAll().contains("Gait"));
-  for (int page : {1, 0}) {
-    editor.session().show_page(page);
-    editor.session().discard_autosave();
-  }
-  EXPECT_FALSE(QFile::exists(one) || QFile::exists(two));
 }
 
 TEST(EditorOnDisk, SavingDoesNotWriteOverWhatAColleagueSaved) {
@@ -508,7 +310,7 @@ struct NotSavedYet : Editor {
   NotSavedYet() : Editor(true) {
     for (const char* name : {"clips", "graphs", "elsewhere"}) QDir(folder.path()).mkpath(name);
     for (const char* name : {"walk.bvh", "sneak.bvh"})
-      QFile::copy(graphs + "clips/" + name, folder.filePath(QString("clips/") + name));
+      QFile::copy(example_graphs() + "clips/" + name, folder.filePath(QString("clips/") + name));
     load = add("load");
     choose("clips/walk.bvh");
   }
@@ -577,7 +379,7 @@ TEST(EditorOnDisk, AGraphWhoseFileIsDeletedIsSavedAgain) {
 TEST(EditorOnDisk, ClosingAGraphWhoseFileIsDeletedAsks) {
   Editor editor(true);
   const QString path = editor.folder.filePath("main.kg.json");
-  ASSERT_TRUE(QFile::copy(graphs + "feet.kg.json", path));
+  ASSERT_TRUE(QFile::copy(example_graphs() + "feet.kg.json", path));
   ASSERT_TRUE(editor.window.open(path));
   ASSERT_TRUE(QFile::remove(path));
   editor.when_asked([](QWidget& dialog) { Editor::keys_to(dialog, {}, Qt::Key_Return); });
@@ -640,7 +442,7 @@ TEST(EditorOnDisk, ADamagedClipFailsItsNodeWithWhatToDo) {
 
 TEST(EditorOnDisk, ADamagedGraphIsRefusedWithADialogAndWhatIsOpenStays) {
   Editor editor(true);
-  ASSERT_TRUE(editor.window.open(graphs + "feet.kg.json"));
+  ASSERT_TRUE(editor.window.open(example_graphs() + "feet.kg.json"));
   const std::string before = editor.session().text();
   const QString path = editor.folder.filePath("torn.kg.json");
   QFile file(path);
@@ -693,7 +495,7 @@ TEST(EditorOnDisk, ABrokenGraphIsToldWholeInTheDialogAndInTheProblemsDock) {
   EXPECT_TRUE(list->isVisible());
   EXPECT_TRUE(rows().contains("broken.kg.json: soft.motion, line 3")) << rows().join("; ").toStdString();
   // Once a graph opens, they are of no interest any more.
-  ASSERT_TRUE(editor.window.open(graphs + "feet.kg.json"));
+  ASSERT_TRUE(editor.window.open(example_graphs() + "feet.kg.json"));
   EXPECT_TRUE(QTest::qWaitFor([&] { return rows().isEmpty(); }, 5000));
 }
 
@@ -702,7 +504,7 @@ TEST(EditorOnDisk, RunAsksToSaveTheGraphInside) {
   QDir(editor.folder.path()).mkpath("pipelines");
   for (const char* name : {"reuse.kg.json", "pipelines/sneakify.kg.json", "pipelines/restyle.kg.json",
                            "pipelines/clean_feet.kg.json"})
-    ASSERT_TRUE(QFile::copy(graphs + name, editor.folder.filePath(name)));
+    ASSERT_TRUE(QFile::copy(example_graphs() + name, editor.folder.filePath(name)));
   ASSERT_TRUE(editor.window.open(editor.folder.filePath("reuse.kg.json")));
   editor.session().select({"sneaky"}, "sneaky");
   editor.canvas().setFocus();
