@@ -22,9 +22,15 @@ MistakeLine::MistakeLine(QWidget* parent)
 }
 
 void MistakeLine::say(const QString& why) {
+  if (why == words_->text()) return;
   words_->setText(why);
-  badge_->setPixmap(style()->standardIcon(QStyle::SP_MessageBoxCritical).pixmap(14, 14));
+  // Drawn when it is seen: rows are told at each step of a slider that nothing is wrong.
+  if (!why.isEmpty()) draw_badge();
   setVisible(!why.isEmpty());
+}
+
+void MistakeLine::draw_badge() {
+  badge_->setPixmap(style()->standardIcon(QStyle::SP_MessageBoxCritical).pixmap(14, 14));
 }
 
 bool MistakeLine::says_something() const {
@@ -32,7 +38,7 @@ bool MistakeLine::says_something() const {
 }
 
 void MistakeLine::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::StyleChange && says_something()) say(words_->text());
+  if (event->type() == QEvent::StyleChange && says_something()) draw_badge();
   QWidget::changeEvent(event);
 }
 

@@ -16,6 +16,7 @@ class MistakeLine : public QWidget {
   void changeEvent(QEvent* event) override;
 
  private:
+  void draw_badge();
   QLabel *badge_, *words_;
 };
 
