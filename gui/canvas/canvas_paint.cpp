@@ -21,6 +21,7 @@ QFont ui_font(double pixels, bool bold = false) {
 void draw_wrapped(QPainter& p, const QRectF& box, const QString& text) {
   const double high = p.fontMetrics().lineSpacing();
   double y = box.top();
+  qsizetype start = 0;  // of the paragraph
   for (const QString& paragraph : text.split('\n')) {
     QTextLayout layout(paragraph, p.font());
     layout.beginLayout();
@@ -28,7 +29,7 @@ void draw_wrapped(QPainter& p, const QRectF& box, const QString& text) {
       line.setLineWidth(box.width());
       if (y + high > box.bottom() + 1) return;
       const bool last = y + 2 * high > box.bottom() + 1;
-      const QString rest = last ? text.mid(text.indexOf(paragraph)).mid(line.textStart()) : QString();
+      const QString rest = last ? text.mid(start + line.textStart()) : QString();
       p.drawText(
           QPointF(box.left(), y + p.fontMetrics().ascent()),
           last && rest.size() > line.textLength()
@@ -37,7 +38,7 @@ void draw_wrapped(QPainter& p, const QRectF& box, const QString& text) {
       y += high;
     }
     layout.endLayout();
-    if (paragraph.isEmpty()) y += high;
+    start += paragraph.size() + 1;
   }
 }
 

@@ -13,6 +13,7 @@
 #include "graph/nested.h"
 #include "gui/viewer/viewer.h"
 #include "tests/gui/editor.h"
+#include "tests/gui/long_row.h"
 #include "tests/mocap.h"
 #include "tests/places.h"
 
@@ -289,16 +290,11 @@ TEST(EditorPages, AGraphNodeWhoseFileIsGoneIsMendedAmongItsParameters) {
 // still.
 struct ManyInside : Editor {
   ManyInside() : path(folder.filePath("outer.kg.json")) {
-    std::string inside =
-        R"({"format": "kinegraph", "schema": 1, "publish": {"outputs": {"motion": "t998.motion"}},
-      "nodes": {"walk": {"type": "Gait"})";
-    for (int i = 0; i < 999; ++i)
-      inside += ",\n\"t" + std::to_string(i) + R"(": {"type": "Trim", "inputs": {"motion": ")" +
-                (i ? "t" + std::to_string(i - 1) : "walk") + ".motion\"}}";
+    const std::string inside = long_row();
     std::string outer = R"({"format": "kinegraph", "schema": 1, "nodes": {"walk": {"type": "Gait"})";
     for (int i = 0; i < 60; ++i) {
       const std::string file = "inside" + std::to_string(i) + ".kg.json";
-      std::ofstream(folder.filePath(QString::fromStdString(file)).toStdString()) << inside << "}}";
+      std::ofstream(folder.filePath(QString::fromStdString(file)).toStdString()) << inside;
       outer += ",\n\"g" + std::to_string(i) + R"(": {"type": "Graph", "params": {"file": ")" + file + "\"}}";
     }
     std::ofstream(path.toStdString()) << outer << "}}";

@@ -17,6 +17,7 @@
 #include "gui/look/ask_file.h"
 #include "gui/look/settings.h"
 #include "gui/window/relink_dialog.h"
+#include "tests/gui/long_row.h"
 #include "tests/screenshots/shots.h"
 
 namespace kinegraph::shots {
@@ -200,12 +201,7 @@ void long_work(const Theme& theme, const QDir& into, const QString& end) {
   }
   {
     Shot shot(theme, into);
-    std::string inside =
-        R"({"format": "kinegraph", "schema": 1, "publish": {"outputs": {"motion": "t998.motion"}},
-      "nodes": {"walk": {"type": "Gait"})";
-    for (int i = 0; i < 999; ++i)
-      inside += ",\n\"t" + std::to_string(i) + R"(": {"type": "Trim", "inputs": {"motion": ")" +
-                (i ? "t" + std::to_string(i - 1) : "walk") + ".motion\"}}";
+    const std::string inside = long_row();
     // Six parts of ten pieces each.
     shot.in_shot("x");
     const auto write = [&](const std::string& name, const std::string& text) {
@@ -219,7 +215,7 @@ void long_work(const Theme& theme, const QDir& into, const QString& end) {
       std::string of_part;
       for (int piece = 0; piece < 10; ++piece) {
         const std::string name = "piece_" + std::to_string(part) + std::to_string(piece);
-        write(name + ".kg.json", inside + "}}");
+        write(name + ".kg.json", inside);
         of_part += (piece ? "," : "") + graph_node(name);
       }
       const std::string name = "part_" + std::to_string(part);
